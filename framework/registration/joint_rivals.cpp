@@ -130,14 +130,24 @@ std::vector<std::optional<double>> leads_over_rivals(const JointScene& scene,
                                                      const std::vector<JointState>& starts,
                                                      const JointOptions& options,
                                                      const JointOptions& coarse_options) {
-  const std::vector<PairAgreement> own = agreements_in(scene, state, options);
+  // More points tell closer rivals apart, and are needed only once for each.
+  constexpr int kMore = 4;
+  JointOptions compared = options;
+  compared.points = kMore * options.points;
+  const std::vector<PairAgreement> own = agreements_in(scene, state, compared);
   std::vector<std::optional<double>> min_leads(scene.sources.size());
-  const std::vector<JointState> near = registered({coarse}, starts, coarse_options);
-  for (const JointState& fine : registered({scene}, different_from(state, near), options)) {
+  // Most starts converge to the same few states, so those that others reach go on alone.
+  std::vector<JointState> near = starts;
+  JointOptions pass = coarse_options;
+  for (const double distance_m : coarse_options.max_distances_m) {
+    pass.max_distances_m = {distance_m};
+    near = different_from(state, registered({coarse}, near, pass));
+  }
+  for (const JointState& fine : registered({scene}, near, options)) {
     if (!is_rival(fine, state)) continue;
     const std::optional<Eigen::Vector3d> axis = axis_between(state, fine);
     const double lead =
-        lead_of(sum_by_cell(own, axis), sum_by_cell(agreements_in(scene, fine, options), axis));
+        lead_of(sum_by_cell(own, axis), sum_by_cell(agreements_in(scene, fine, compared), axis));
     for (std::size_t j = 0; j < min_leads.size(); ++j) {
       if (!is_elsewhere(fine, state, scene.sources[j].sensor)) continue;
       min_leads[j] = std::min(lead, min_leads[j].value_or(lead));

@@ -51,9 +51,10 @@ const params::Table<Params>& table() {
                           "Whether motion needs the channel time in all clouds. Otherwise the rig "
                           "is taken to be at rest in scenes with a cloud that lacks it."),
           params::number("max_free_share", &Params::max_free_share, {0.0, 1e6},
-                         "Maximum ratio of the points in free space to those that agree at the "
-                         "initial pose. With one pose per scene, a sensor beyond it is rejected, "
-                         "so that it does not mislead the velocity."),
+                         "Maximum ratio of the points in free space to those that agree. With one "
+                         "pose per scene, a sensor that is beyond it at the initial pose does not "
+                         "take part, so that it does not mislead the velocity. It is registered "
+                         "afterwards, with that velocity, and rejected if it is still beyond."),
       }
           .inherit(joint_table())
           .inherit(motion_table())
@@ -70,7 +71,8 @@ struct Group {
   std::vector<RigGroup> estimates;
   std::vector<std::string> sensors;
   JointState state;
-  RigGroup excluded;  ///< Their initial poses are wrong.
+  /// Those whose initial poses are wrong, with the reasons for their rejection.
+  std::vector<std::pair<RigEstimate*, std::string>> excluded;
 };
 
 bool has_times(const Cloud& cloud) { return find_channel(cloud.with_channels(), kTime) != nullptr; }
@@ -106,7 +108,10 @@ class JointRegistrationStep final : public RigStep {
  private:
   void register_group(const RigGroup& estimates) const {
     const Group group = group_of(estimates);
-    if (group.scenes.empty()) return;
+    if (group.scenes.empty()) {
+      for (const auto& [member, reason] : group.excluded) reject(member->estimate, reason);
+      return;
+    }
     const std::vector<JointScene> coarse = thinned(group.scenes);
     const JointRegistration result = registered(group, coarse, params_);
     const bool is_any_moving = std::any_of(group.scenes.begin(), group.scenes.end(),
@@ -124,11 +129,41 @@ class JointRegistrationStep final : public RigStep {
         motion.leads =
             leads_of(group.scenes[s], coarse[s], result.state, motion, state_without_patch_kernel);
       }
-      write_result(group, s, result, motion);
-      for (RigEstimate* const member : group.excluded) {
-        store_motion(member->estimate.extras, group.scenes[s].is_moving, motion);
+      const auto still_target = write_result(group, s, result, motion);
+      for (const auto& [member, reason] : group.excluded) {
+        if (!register_at(motion, *member, still_target)) {
+          reject(member->estimate, reason);
+          store_motion(member->estimate.extras, group.scenes[s].is_moving, motion);
+        }
       }
     }
+  }
+
+  /// Registers an excluded sensor with the velocity that the others determined, and returns whether
+  /// its pose no longer contradicts the free space. The distortion by an unknown motion may have
+  /// led the earlier steps to a wrong pose.
+  bool register_at(const SceneMotion& motion, RigEstimate& member,
+                   const std::shared_ptr<const Cloud>& still_target) const {
+    const bool leads = std::all_of(motion.leads.begin(), motion.leads.end(), [&](const auto& lead) {
+      return !lead || *lead >= params_.min_speed_lead;
+    });
+    if (!motion.is_moving || !leads) return false;
+    const RigEstimate before = member;
+    Group alone;
+    alone.scenes = {scene_of(member)};
+    alone.scenes.front().is_moving = false;  // The velocity is known.
+    alone.estimates = {{&member}};
+    alone.state = {{member.estimate.T_target_source}, {0.0}, {motion.velocity}};
+    const JointRegistration result = registered(alone, thinned(alone.scenes), params_);
+    SceneMotion of_source = motion;
+    of_source.leads.assign(1, std::nullopt);
+    const DeskewedTarget target(alone.scenes.front(), motion.velocity, params_);
+    of_source.shift_std_m = shift_std_m(target, motion.covariance, result.state, params_);
+    store_motion(member.estimate.extras, true, motion);
+    write_result(alone, 0, result, of_source, still_target);
+    if (member.failure.empty() && !contradiction(member.estimate)) return true;
+    member = before;
+    return false;
   }
 
   /// The lead of `state`, by source, over the states to which other speeds converge.
@@ -160,22 +195,21 @@ class JointRegistrationStep final : public RigStep {
     return register_jointly(group.scenes, near, options);
   }
 
-  /// Rejects `member` if its initial pose contradicts the free space of its clouds, and returns
-  /// whether it does.
-  bool is_rejected(RigEstimate& member) const {
-    Estimate& estimate = member.estimate;
+  /// Why the pose is wrong, if it contradicts the free space of its clouds.
+  std::optional<std::string> contradiction(const Estimate& estimate) const {
     const PoseEvidence evidence =
         pose_evidence(*shared_view(*estimate.target, params_.thinning),
                       *shared_view(*estimate.source, params_.thinning), estimate.T_target_source);
     const double free = evidence.violation_ratio(), agreeing = evidence.overlap_ratio();
-    if (free <= params_.max_free_share * agreeing) return false;
+    if (free <= params_.max_free_share * agreeing) return std::nullopt;
+    return "at the initial pose, the share of points in free space is " + fixed_number(free, 3) +
+           ", above " + fixed_number(params_.max_free_share, 2) + " of the " +
+           fixed_number(agreeing, 3) + " that agree";
+  }
+
+  static void reject(Estimate& estimate, const std::string& reason) {
     estimate.diagnostics.clear();
-    estimate.rejection = with_reason(estimate.rejection,
-                                     "at the initial pose, the share of points in free space is " +
-                                         fixed_number(free, 3) + ", above " +
-                                         fixed_number(params_.max_free_share, 2) + " of the " +
-                                         fixed_number(agreeing, 3) + " that agree");
-    return true;
+    estimate.rejection = with_reason(estimate.rejection, reason);
   }
 
   /// Groups the usable estimates, excludes those whose poses are wrong, and marks the others as
@@ -187,9 +221,11 @@ class JointRegistrationStep final : public RigStep {
     for (RigEstimate* const member : estimates) {
       try {
         JointScene scene = scene_of(*member);
-        if (scene.is_moving && params_.poses == Poses::per_scene && is_rejected(*member)) {
-          group.excluded.push_back(member);
-          continue;
+        if (scene.is_moving && params_.poses == Poses::per_scene) {
+          if (const auto reason = contradiction(member->estimate)) {
+            group.excluded.emplace_back(member, *reason);
+            continue;
+          }
         }
         const std::size_t s = index_of(scene_names, member->scene);
         if (s == group.scenes.size()) {
@@ -255,11 +291,13 @@ class JointRegistrationStep final : public RigStep {
     return index;
   }
 
-  /// Writes the poses and deskewed clouds to the estimates of scene `s`.
-  void write_result(const Group& group, std::size_t s, const JointRegistration& result,
-                    const SceneMotion& motion) const {
+  /// Writes the poses and deskewed clouds to the estimates of scene `s`, and returns the deskewed
+  /// target, which may be given as `target`; null if no cloud was deskewed.
+  std::shared_ptr<const Cloud> write_result(const Group& group, std::size_t s,
+                                            const JointRegistration& result,
+                                            const SceneMotion& motion,
+                                            std::shared_ptr<const Cloud> target = nullptr) const {
     const JointScene& scene = group.scenes[s];
-    std::shared_ptr<const Cloud> target;
     for (std::size_t j = 0; j < scene.sources.size(); ++j) {
       const JointScene::Source& source = scene.sources[j];
       RigEstimate& member = *group.estimates[s][j];
@@ -293,6 +331,7 @@ class JointRegistrationStep final : public RigStep {
           target, deskewed_for_trial(source.scan, velocity_in(T.inverse(), motion.velocity),
                                      scene.reference_s, offset_s, clock_correction));
     }
+    return target;
   }
 
   std::vector<Diagnostic> diagnostics_of(const JointRegistration& result, const Extras& extras,
@@ -358,7 +397,7 @@ StageEntry joint_registration() {
       "joint_registration",
       "Processes the whole rig: registers all sensors together with the velocity of each scene, "
       "and removes the resulting distortion from the scans.",
-      "Zhang and Singh, LOAM, 2014; Chen and Medioni 1992", table(), 14);
+      "Zhang and Singh, LOAM, 2014; Chen and Medioni 1992", table(), 15);
 }
 
 }  // namespace croon::stages::step
