@@ -23,6 +23,7 @@ struct Params : JointOptions, MotionOptions {
   Params() {
     max_distances_m = {1.0, 0.5, 0.3};
     points = 2000;
+    min_speed_lead = 1.5;
   }
   params::Slot<Preprocessor> thinning;
   double period_s = 0.1;
@@ -216,7 +217,7 @@ StageEntry motion_check() {
       "Processes the whole rig: rejects the poses of a scene if uncorrected motion during its "
       "scans explains the clouds better than a rig at rest, or cannot be excluded. Needs no times: "
       "each sensor is assumed to sweep about its z axis.",
-      "croon", table(), 3);
+      "croon", table(), 4);
 }
 
 }  // namespace croon::stages::step

@@ -111,6 +111,31 @@ class SceneGraph {
     }
   }
 
+  /// Adds to the reason of each sensor that is still not connected those relative to which its pose
+  /// was found.
+  void name_parts() {
+    if (may_have_moved_) return;
+    std::vector<Edge> edges;
+    for (std::size_t i = 0; i < pending_.size(); ++i) {
+      for (std::size_t j = i + 1; j < pending_.size(); ++j) {
+        if (is_at_rest(pending_[i]->estimate.extras) && is_at_rest(pending_[j]->estimate.extras)) {
+          edges.push_back({pending_[i], pending_[j]});
+        }
+      }
+    }
+    for_each_in_parallel(edges.size(), [&](std::size_t i) { calibrate(edges[i]); });
+    for (RigEstimate* const sensor : pending_) {
+      std::vector<std::string> others;
+      for (const Edge& edge : edges) {
+        if (!edge.is_accepted() || (edge.from != sensor && edge.to != sensor)) continue;
+        others.push_back(edge.from == sensor ? edge.to->source : edge.from->source);
+      }
+      if (others.empty()) continue;
+      add_reason(*sensor, "its pose was found relative to " + list_text(others) +
+                              ", but not to the reference");
+    }
+  }
+
   /// Rejects sensors that contradict others: points of one lie in the free space of the other. The
   /// sensor with the most contradictions first, with those that were connected by way of it; of two
   /// that contradict only each other, both.
@@ -213,8 +238,9 @@ class SceneGraph {
       edge.result = at_start(to.target, to.source, to.initial_guess);
     } else {
       const Estimate& from = edge.from->estimate;
-      edge.result =
-          at_start(from.source, to.source, from.T_target_source.inverse() * to.initial_guess);
+      const RigidTransform& T_reference_from =
+          is_accepted(*edge.from) ? from.T_target_source : from.initial_guess;
+      edge.result = at_start(from.source, to.source, T_reference_from.inverse() * to.initial_guess);
     }
     const StreamKey key = key_.with(edge.from_name()).with(edge.to->source);
     for (std::size_t i = 0; i < params_.pair.size(); ++i) {
@@ -256,6 +282,11 @@ class SceneGraph {
     const std::string reason = "the poses by way of " + a.from_name() + " and " + b.from_name() +
                                " differ by " + fixed_number(deg_from_rad(apart.rotation_rad), 3) +
                                " degrees and " + fixed_number(apart.translation_m, 3) + " m";
+    add_reason(sensor, reason);
+  }
+
+  /// Adds a reason to the failure or the rejection of `sensor`.
+  static void add_reason(RigEstimate& sensor, const std::string& reason) {
     if (sensor.failure.empty()) {
       sensor.estimate.rejection = with_reason(sensor.estimate.rejection, reason);
     } else {
@@ -316,6 +347,7 @@ class SensorGraph final : public RigStep {
     for_each_group(rig_groups(rig, key_of), [&](const RigGroup& scene) {
       SceneGraph graph(params_, scene, key.with(scene.front()->scene));
       graph.grow();
+      graph.name_parts();
       graph.reject_contradictions();
     });
   }
@@ -330,8 +362,9 @@ StageEntry sensor_graph() {
   return stage_entry<SensorGraph>(
       "sensor_graph",
       "Processes the whole rig: connects sensors that could not be calibrated to the reference by "
-      "way of other sensors, and rejects those that contradict others.",
-      "croon", table(), 2);
+      "way of other sensors, rejects those that contradict others, and names parts of the rig that "
+      "are not connected to the reference.",
+      "croon", table(), 3);
 }
 
 }  // namespace croon::stages::step

@@ -93,6 +93,21 @@ TEST(SensorGraph, ConnectsASensorWhoseStepsFailed) {
   expect_connected(rig);
 }
 
+TEST(SensorGraph, NamesAPartThatIsNotConnectedToTheReference) {
+  StreetRig rig = street_rig();
+  rig.side().estimate.target = too_few_points();
+  rig.side().estimate.rejection = "verdict: too little overlap";
+  rig.rear().failure = "global_alignment: no pose was found at which the clouds agree";
+  rig.rear().estimate.rejection.reset();
+  connect(rig.estimates);
+  EXPECT_EQ(rig.side().estimate.rejection,
+            "verdict: too little overlap; its pose was found relative to rear, but not to the "
+            "reference");
+  EXPECT_EQ(rig.rear().failure,
+            "global_alignment: no pose was found at which the clouds agree; its pose was found "
+            "relative to side, but not to the reference");
+}
+
 TEST(SensorGraph, AddsTheUncertaintyOfTheSensorOnTheWay) {
   StreetRig sure = street_rig(), unsure = street_rig();
   unsure.side().estimate.covariance->matrix *= 1e4;
