@@ -14,7 +14,7 @@ struct MotionOptions {
   double min_motion = 100.0;
   double max_speed_std_mps = 0.05;
   std::vector<double> other_speeds_mps = {-30.0, -20.0, -10.0, 0.0, 10.0, 20.0, 30.0};
-  double min_speed_lead = 1.0;
+  double min_speed_lead = 1.5;
   double certain_shift_m = 0.0025;
 };
 

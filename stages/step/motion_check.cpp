@@ -23,7 +23,6 @@ struct Params : JointOptions, MotionOptions {
   Params() {
     max_distances_m = {1.0, 0.5, 0.3};
     points = 2000;
-    min_speed_lead = 1.5;
   }
   params::Slot<Preprocessor> thinning;
   double period_s = 0.1;
