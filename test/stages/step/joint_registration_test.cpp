@@ -107,7 +107,8 @@ TEST(JointRegistration, FindsThePosesAndTheVelocityOfADrivingRig) {
     const Matrix6d& covariance = estimate.extras.get(kMotionCovariance);
     for (int k = 0; k < 6; ++k) {
       const double std = std::sqrt(covariance(k, k));
-      EXPECT_LT(std::abs(off(k)), 6.0 * std) << k;
+      // Along x, the stated standard deviation of one of the scenes is too small.
+      EXPECT_LT(std::abs(off(k)), (k == 3 ? 6.0 : 5.0) * std) << k;
       EXPECT_LT(std, k < 3 ? rad_from_deg(10.0) : 2.0) << k;
     }
     EXPECT_EQ(test::diagnostic(estimate, "vx_mps"), found.linear_mps.x());
