@@ -180,7 +180,7 @@ class JointRegistrationStep final : public RigStep {
     JointOptions near = params_;
     near.max_distances_m = params_.coarse_distances_m;
     if (near.max_distances_m.size() > 1) near.max_distances_m.erase(near.max_distances_m.begin());
-    // Few points show to which state a speed leads; all of them then decide.
+    // Few points show to which state a speed leads; more of them then decide.
     constexpr int kFewer = 4;
     near.points = std::max(kMinJointCorrespondences, params_.points / kFewer);
     return leads_over_rivals(scene, coarse, state, starts, params_, near);

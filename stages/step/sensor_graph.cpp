@@ -111,8 +111,7 @@ class SceneGraph {
     }
   }
 
-  /// Adds to the reason of each sensor that is still not connected those relative to which its pose
-  /// was found.
+  /// Tells for each sensor that is still not connected relative to which others its pose was found.
   void name_parts() {
     if (may_have_moved_) return;
     std::vector<Edge> edges;
@@ -191,7 +190,7 @@ class SceneGraph {
 
   static constexpr const RigEstimate* kReference = nullptr;
 
-  /// The pose of a sensor relative to a connected one, or to the reference, by the steps `pair`.
+  /// The pose of a sensor relative to another one, or to the reference, by the steps `pair`.
   struct Edge {
     const RigEstimate* from = kReference;
     const RigEstimate* to = nullptr;
