@@ -1,83 +1,66 @@
 // What does a complete calibration of two clouds cost, first without cached data, and then from
-// another initial guess with cached trees, normals and grounds?
+// another initial guess with cached trees, normals and grounds? How does the cost of `best.json`
+// grow with the number of points?
 
-#include <stdexcept>
-
-#include "benchmarks/support/clouds.hpp"
+#include "benchmarks/support/calibration.hpp"
 #include "benchmarks/support/run.hpp"
-#include "framework/pipeline/calibrate.hpp"
-#include "framework/pipeline/rig.hpp"
-#include "registry/registry.hpp"
-#include "test/support/tree.hpp"
 
 namespace croon::benchmarks {
 namespace {
 
-constexpr int kStarts = 8;
+constexpr std::size_t kWarmUps = 8;
 
-/// A pipeline, and the range of its initial guesses.
-struct Method {
-  std::string name, file;
-  double rotation_deg;
-};
-const std::vector<Method> kMethods = {{"paper", "experiments/paper/pipeline.json", 45.0},
-                                      {"best", "experiments/best.json", 180.0}};
+void set_counters(benchmark::State& state, const AnswerErrors& errors, const CloudPair& pair) {
+  errors.set_counters(state);
+  state.counters["points"] = static_cast<double>(pair.target.size() + pair.source.size());
+}
 
-class Calibration {
- public:
-  Calibration(const Method& method, CloudPair pair)
-      : pipeline_(load_pipeline(test::source_root() / method.file, registry())),
-        pair_(std::move(pair)),
-        starts_(poses_near(pair_, kStarts, method.rotation_deg, 0.1)) {
-    forget();
-  }
-
-  /// Replaces the clouds by copies without cached data.
-  void forget() {
-    target_ = fresh(pair_.target);
-    source_ = fresh(pair_.source);
-  }
-
-  /// Runs from the next initial guess. Throws if a step fails.
-  void run() {
-    Rig rig = {{"scene", "reference", "sensor", StreamKey(1),
-                at_start(target_, source_, starts_[next_++ % starts_.size()])}};
-    run_pipeline(pipeline_, rig, StreamKey(1));
-    if (!rig[0].result.failure.empty()) throw std::runtime_error(rig[0].result.failure);
-  }
-
- private:
-  Pipeline pipeline_;
-  CloudPair pair_;
-  std::vector<RigidTransform> starts_;
-  std::shared_ptr<const Cloud> target_, source_;
-  std::size_t next_ = 0;
-};
-
-void measure_first(benchmark::State& state, Calibration calibration) {
+/// `trials` counts over repetitions, so that each starts from another initial guess.
+void measure_first(benchmark::State& state, const Method& method, const CloudPair& pair,
+                   std::size_t& trials) {
+  Calibration calibration(method, pair);
+  AnswerErrors errors;
   for (auto _ : state) {
     state.PauseTiming();
     calibration.forget();
     state.ResumeTiming();
-    calibration.run();
+    const Answer answer = calibration.run(trials++);
+    state.PauseTiming();
+    errors.add(answer, pair);
+    state.ResumeTiming();
   }
+  set_counters(state, errors, pair);
 }
 
-void measure_further(benchmark::State& state, Calibration calibration) {
-  for (int i = 0; i < kStarts; ++i) calibration.run();
-  for (auto _ : state) calibration.run();
+void measure_further(benchmark::State& state, const Method& method, const CloudPair& pair) {
+  Calibration calibration(method, pair);
+  std::size_t trials = 0;
+  while (trials < kWarmUps) calibration.run(trials++);
+  for (auto _ : state) benchmark::DoNotOptimize(calibration.run(trials++));
+}
+
+void add_first(const std::string& name, const Method& method, const CloudPair& pair) {
+  add(name, benchmark::kMillisecond, [=, trials = std::size_t{0}](benchmark::State& state) mutable {
+    measure_first(state, method, pair, trials);
+  });
 }
 
 void check_and_add() {
   std::vector<CloudPair> pairs = {street(100000, 20000)};
   for (CloudPair& pair : samples()) pairs.push_back(std::move(pair));
+  for (CloudPair& pair : rigs()) pairs.push_back(std::move(pair));
   for (const CloudPair& pair : pairs) {
-    for (const Method& method : kMethods) {
-      add(pair.name + "/first_start/" + method.name, benchmark::kMillisecond,
-          [=](benchmark::State& state) { measure_first(state, Calibration(method, pair)); });
-      add(pair.name + "/further_start/" + method.name, benchmark::kMillisecond,
-          [=](benchmark::State& state) { measure_further(state, Calibration(method, pair)); });
+    for (const Method& method : methods()) {
+      add_first(pair.name + "/first_start/" + method.name, method, pair);
     }
+    for (const Method& method : methods()) {
+      add(pair.name + "/further_start/" + method.name, benchmark::kMillisecond,
+          [=](benchmark::State& state) { measure_further(state, method, pair); });
+    }
+  }
+  for (const int count : {10000, 30000, 100000, 300000, 1000000}) {
+    const CloudPair pair = street(count, count);
+    add_first("growth/" + pair.name + "/best", methods().back(), pair);
   }
 }
 

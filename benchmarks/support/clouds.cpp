@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "framework/calibration/extrinsics.hpp"
+#include "framework/io/point_cloud_file.hpp"
 #include "framework/stage/dataset.hpp"
 #include "framework/stage/ground_extractor.hpp"
 #include "test/support/random_geometry.hpp"
@@ -60,6 +62,16 @@ std::vector<CloudPair> samples() {
   const char* data_root = std::getenv("CROON_DATA");
   if (data_root == nullptr) return {};
   return {sample(data_root, "opencalib/carla/004069"), sample(data_root, "opencalib/real/0001")};
+}
+
+std::vector<CloudPair> rigs() {
+  const char* data_root = std::getenv("CROON_DATA");
+  if (data_root == nullptr) return {};
+  const std::filesystem::path folder = std::filesystem::path(data_root) / "rigs" / "edgar";
+  if (!std::filesystem::exists(folder)) return {};
+  return {{"edgar/sensor_2", read_point_cloud(folder / "sensor_1" / "1.pcd").points,
+           read_point_cloud(folder / "sensor_2" / "1.pcd").points,
+           read_extrinsics(folder / "nominal.json").poses.at(0).T_parent_sensor}};
 }
 
 CloudPair non_ground(const CloudPair& pair) {

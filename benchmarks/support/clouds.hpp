@@ -30,6 +30,10 @@ bool is_large(const CloudPair& pair);
 /// set.
 std::vector<CloudPair> samples();
 
+/// The first clouds of the rig `edgar` of GMMCalib, which has a nominal pose, below the folder
+/// CROON_DATA/rigs; none if they are not there.
+std::vector<CloudPair> rigs();
+
 /// The pair without its ground, as the stage `ransac` finds it.
 CloudPair non_ground(const CloudPair& pair);
 

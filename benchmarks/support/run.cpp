@@ -21,6 +21,20 @@ int& failures() {
   return count;
 }
 
+benchmark::internal::Benchmark* registered(const std::string& name, benchmark::TimeUnit unit,
+                                           const std::function<void(benchmark::State&)>& measure) {
+  return benchmark::RegisterBenchmark(name.c_str(),
+                                      [measure](benchmark::State& state) {
+                                        try {
+                                          measure(state);
+                                        } catch (const std::exception& error) {
+                                          ++failures();
+                                          state.SkipWithError(error.what());
+                                        }
+                                      })
+      ->Unit(unit);
+}
+
 }  // namespace
 
 std::size_t allocated_bytes() {
@@ -42,17 +56,12 @@ std::size_t allocated_bytes() {
 
 void add(const std::string& name, benchmark::TimeUnit unit,
          const std::function<void(benchmark::State&)>& measure) {
-  benchmark::RegisterBenchmark(name.c_str(),
-                               [measure](benchmark::State& state) {
-                                 try {
-                                   measure(state);
-                                 } catch (const std::exception& error) {
-                                   ++failures();
-                                   state.SkipWithError(error.what());
-                                 }
-                               })
-      ->Unit(unit)
-      ->UseRealTime();
+  registered(name, unit, measure)->UseRealTime();
+}
+
+void add_with_own_clock(const std::string& name, benchmark::TimeUnit unit,
+                        const std::function<void(benchmark::State&)>& measure) {
+  registered(name, unit, measure)->UseManualTime();
 }
 
 int run(int argc, char** argv, const std::function<void()>& check_and_add) {

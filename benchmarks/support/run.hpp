@@ -21,4 +21,8 @@ std::size_t allocated_bytes();
 void add(const std::string& name, benchmark::TimeUnit unit,
          const std::function<void(benchmark::State&)>& measure);
 
+/// The same, but the time is what `measure` sets with `SetIterationTime`.
+void add_with_own_clock(const std::string& name, benchmark::TimeUnit unit,
+                        const std::function<void(benchmark::State&)>& measure);
+
 }  // namespace croon::benchmarks
