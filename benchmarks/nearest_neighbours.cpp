@@ -66,7 +66,7 @@ void add_queries(const std::string& name, const Points& points, const Points& qu
 
 template <class Tree>
 void add_tree(const std::string& name, const CloudPair& pair) {
-  const std::string place = pair.name + "/";
+  const std::string place = "/" + pair.name + "/";
   // Queries as in registrations (near the true pose) and as in the rough calibration (up to 45
   // degrees off).
   const Points near = transformed(pair.source, poses_near(pair, 1, 0.5, 0.05)[0]);
@@ -76,12 +76,12 @@ void add_tree(const std::string& name, const CloudPair& pair) {
       benchmark::DoNotOptimize(tree.nearest(query, bound_m));
     };
   };
-  add_build<Tree>(place + "build/" + name, pair.target);
-  add_queries<Tree>(place + "near/" + name, pair.target, near, within(kUnbounded));
-  add_queries<Tree>(place + "near_within_0.3m/" + name, pair.target, near, within(0.3F));
-  add_queries<Tree>(place + "off/" + name, pair.target, off, within(kUnbounded));
-  add_queries<Tree>(place + "off_within_2m/" + name, pair.target, off, within(2.0F));
-  add_queries<Tree>(place + "40_of_its_own/" + name, pair.target, pair.target,
+  add_build<Tree>("kd_tree" + place + name, pair.target);
+  add_queries<Tree>("nearest" + place + name, pair.target, near, within(kUnbounded));
+  add_queries<Tree>("nearest_within_0.3m" + place + name, pair.target, near, within(0.3F));
+  add_queries<Tree>("nearest_off" + place + name, pair.target, off, within(kUnbounded));
+  add_queries<Tree>("nearest_off_within_2m" + place + name, pair.target, off, within(2.0F));
+  add_queries<Tree>("40_nearest" + place + name, pair.target, pair.target,
                     [](const Tree& tree, const Eigen::Vector3f& query) {
                       thread_local std::vector<Neighbour> neighbours;
                       tree.nearest(query, kNormalNeighbours, neighbours);

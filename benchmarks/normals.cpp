@@ -70,15 +70,15 @@ void check_and_add() {
   for (const CloudPair& pair : pairs) {
     check_agreement(pair.name, pair.target);
     const auto add_one = [&](const std::string& name, const auto& compute) {
-      add(pair.name + "/" + name, benchmark::kMillisecond,
+      add("normals/" + pair.name + "/" + name, benchmark::kMillisecond,
           [compute, points = pair.target](benchmark::State& state) {
             for (auto _ : state) benchmark::DoNotOptimize(compute(points));
             state.counters["points"] = static_cast<double>(points.size());
           });
     };
-    add_one("one_core", [](const Points& points) { return normals_of(points, false); });
-    add_one("all_cores", [](const Points& points) { return normals_of(points, true); });
-    add_one("peer_nanoflann_eigen", peer_normals_of);
+    add_one("croon_one_core", [](const Points& points) { return normals_of(points, false); });
+    add_one("croon", [](const Points& points) { return normals_of(points, true); });
+    add_one("peer_nanoflann_eigen_one_core", peer_normals_of);
   }
 }
 

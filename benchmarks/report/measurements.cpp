@@ -20,9 +20,8 @@ double in_ms(double time, const std::string& unit) {
 
 /// The name without Google Benchmark's suffixes.
 std::string own_name(const std::string& name) {
-  const std::string ending = "/real_time";
-  const std::size_t at = name.rfind(ending);
-  return at != std::string::npos && at + ending.size() == name.size() ? name.substr(0, at) : name;
+  static const std::regex ending("/(real|manual)_time$");
+  return std::regex_replace(name, ending, "");
 }
 
 /// The parts of a name; std::nullopt for a benchmark of another form.
@@ -79,8 +78,21 @@ void add_line(const json& line, Measurement& measurement) {
   if (line.contains("memory_bytes")) measurement.memory_bytes = line.at("memory_bytes");
 }
 
+/// Adds the counters of a line with a median, a mean or a single value.
+void add_counters(const json& line, PlainTime& time) {
+  const bool is_mean = line.value("aggregate_name", "mean") == "mean";
+  for (const char* name : {"points", "peak_bytes", "rotation_deg", "translation_m",
+                           "max_rotation_deg", "max_translation_m"}) {
+    if (is_time(line) && line.contains(name)) time.counters[name] = line.at(name);
+  }
+  for (const char* name : {"wrong_ratio", "rejected_ratio"}) {
+    if (is_mean && line.contains(name)) time.counters[name] = line.at(name);
+  }
+}
+
 void add_line(const json& line, PlainTime& time) {
   if (is_spread(line)) time.spread = line.at("real_time").get<double>();
+  add_counters(line, time);
   if (!is_time(line)) return;
   time.time = line.at("real_time");
   time.unit = line.at("time_unit");
@@ -117,8 +129,12 @@ BenchmarkRun run_of(const json& content, const std::string& file) {
 
 }  // namespace
 
+double PlainTime::time_ms() const { return in_ms(time, unit); }
+
 BenchmarkRun read_run(const std::filesystem::path& file) {
-  const std::string text = read_whole_file(file);
+  // Google Benchmark writes the coefficient of variation of a counter that is zero as NaN.
+  static const std::regex no_number(R"(": -?(NaN|Infinity))");
+  const std::string text = std::regex_replace(read_whole_file(file), no_number, "\": null");
   try {
     return run_of(json::parse(text), file.string());
   } catch (const json::exception& error) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,6 +29,10 @@ struct PlainTime {
   double time = 0.0;  ///< The median of the repetitions.
   std::string unit;   ///< As in Google Benchmark: "ms".
   std::optional<double> spread;
+  /// Counters by name: "points", "rotation_deg". Medians of the repetitions; of ratios the means.
+  std::map<std::string, double> counters;
+
+  double time_ms() const;
 };
 
 /// The machine and date of a run.

@@ -6,6 +6,8 @@
 #include <limits>
 #include <map>
 
+#include "benchmarks/report/markdown.hpp"
+#include "benchmarks/report/summary.hpp"
 #include "benchmarks/report/times_chart.hpp"
 #include "framework/base/text.hpp"
 #include "framework/table/renderers.hpp"
@@ -45,26 +47,6 @@ const Measurement* find(const Measurements& measurements, const std::string& clo
   }
   return nullptr;
 }
-
-/// The value with three significant digits.
-std::string three_digits(double value) {
-  const int before = value > 0.0 ? static_cast<int>(std::floor(std::log10(value))) : 0;
-  return fixed_number(value, std::clamp(2 - before, 0, 6));
-}
-
-std::string row_of(const std::vector<std::string>& cells) {
-  std::string row = "|";
-  for (const std::string& cell : cells) row += " " + cell + " |";
-  return row + "\n";
-}
-
-std::string header_of(const std::vector<std::string>& titles) {
-  std::string text = row_of(titles) + "|";
-  for (std::size_t i = 0; i < titles.size(); ++i) text += i == 0 ? "---|" : "---:|";
-  return text + "\n";
-}
-
-std::string code(const std::string& name) { return "`" + name + "`"; }
 
 std::string size_text(double leaf_size_m) { return shortest_number(leaf_size_m) + " m"; }
 
@@ -212,6 +194,7 @@ std::string plain_tables(const BenchmarkRun& run) {
   std::vector<std::string> subjects;
   std::map<std::string, Times> rows;
   for (const PlainTime& one : run.times) {
+    if (is_only_in_summary(one)) continue;
     Times& row = rows[one.subject];
     if (row.empty()) subjects.push_back(one.subject);
     row.push_back(&one);
@@ -265,6 +248,10 @@ void add_section(Page& page, const std::string& title, const std::string& senten
 }
 
 void add_run(Page& page, const BenchmarkRun& run) {
+  if (run.measurements.empty() &&
+      std::all_of(run.times.begin(), run.times.end(), is_only_in_summary)) {
+    return;
+  }
   page.markdown += "## " + code(run.program) + "\n\n" + machine_sentence(run);
   const bool has_peers =
       std::any_of(run.measurements.begin(), run.measurements.end(),
@@ -315,13 +302,12 @@ void add_run(Page& page, const BenchmarkRun& run) {
 
 }  // namespace
 
-Page page_of(const std::vector<BenchmarkRun>& runs) {
+Page page_of(const std::vector<BenchmarkRun>& runs, const std::string& date) {
   Page page;
-  page.markdown =
-      "# What it costs\n\n`benchmarks/report.sh` generated this page from the files of Google "
-      "Benchmark; [benchmarks](../../benchmarks/README.md) describes what each program measures "
-      "and "
-      "what it verifies first. Times are medians of wall time.\n\n";
+  page.markdown = "# " + date +
+                  ": What does each part cost?\n\n`benchmarks/report.sh` wrote this page, beside "
+                  "[docs/benchmarks.md](../benchmarks.md), which has the comparisons with other "
+                  "libraries and whole calibrations. Times are medians of wall time.\n\n";
   for (const BenchmarkRun& run : runs) add_run(page, run);
   while (page.markdown.size() > 1 && page.markdown[page.markdown.size() - 2] == '\n') {
     page.markdown.pop_back();

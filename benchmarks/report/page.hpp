@@ -20,7 +20,8 @@ struct Page {
   std::vector<PagePicture> pictures;
 };
 
-/// The page of `runs`. A table never mixes times of two runs.
-Page page_of(const std::vector<BenchmarkRun>& runs);
+/// The page of `runs` with all tables that are not in the summary. A table never mixes times of two
+/// runs. `date`, "2026-11-30", is in its title.
+Page page_of(const std::vector<BenchmarkRun>& runs, const std::string& date);
 
 }  // namespace croon::benchmarks
