@@ -278,18 +278,19 @@ double max_spread(const BenchmarkRun& run) {
   return spread;
 }
 
+/// All in one paragraph, because a page of docs has to be short.
 std::string programs_section(const std::vector<BenchmarkRun>& runs, const std::string& tables) {
-  std::string text =
-      "## Every program\n\nAll other times are [in the notebook](" + tables +
-      "). The spread is the largest coefficient of variation of the repetitions.\n\n" +
-      header_of({"program", "commit", "benchmarks", "load before", "spread"});
+  std::string list;
   for (const BenchmarkRun& run : runs) {
-    const std::size_t count = run.times.size() + run.measurements.size();
-    text += row_of({code(run.program), run.machine.commit, std::to_string(count),
-                    fixed_number(run.machine.load, 2),
-                    fixed_number(100.0 * max_spread(run), 0) + " %"});
+    list += (list.empty() ? "" : "; ") + code(run.program) + " (" + run.machine.commit + ", " +
+            std::to_string(run.times.size() + run.measurements.size()) + " times, load " +
+            fixed_number(run.machine.load, 2) + ", " + fixed_number(100.0 * max_spread(run), 0) +
+            " %)";
   }
-  return text;
+  return "## Every program\n\nAll other times are [in the notebook](" + tables +
+         "). With the commit, the load before the run, and the largest coefficient of variation of "
+         "the repetitions: " +
+         list + ".\n";
 }
 
 }  // namespace
