@@ -17,7 +17,7 @@ for program in "$build"/bin/bench_*; do
   files+=("$file")
 done
 date=$(date +%F)
-mkdir -p "$docs/notebook"
+mkdir -p "$docs/notebook/pictures"
 rm -f "$docs"/notebook/*-what-each-part-costs.md
 "$build/bin/benchmark_report" "$docs" "$date" "${files[@]}"
 index=$docs/notebook/README.md

@@ -207,9 +207,13 @@ std::string share_text(const PlainTime& one, const std::string& name, const std:
   return ratio > 0.0 ? ", **" + fixed_number(100.0 * ratio, 0) + " % " + word + "**" : "";
 }
 
-std::string calibration_cell(const PlainTime& one) {
-  return time_text(one.time_ms()) + error_text(one, "") + share_text(one, "wrong_ratio", "wrong") +
-         share_text(one, "rejected_ratio", "rejected");
+/// A peer's time is also relative to `best_ms`, that of `croon_best`, if it is not zero.
+std::string calibration_cell(const PlainTime& one, double best_ms) {
+  const bool has_ratio = starts(one.way, "peer_") && best_ms > 0.0;
+  const std::string ratio =
+      has_ratio ? " (" + three_digits(one.time_ms() / best_ms) + " ×)" : std::string();
+  return time_text(one.time_ms()) + ratio + error_text(one, "") +
+         share_text(one, "wrong_ratio", "wrong") + share_text(one, "rejected_ratio", "rejected");
 }
 
 std::string calibrations_section(const std::vector<BenchmarkRun>& runs) {
@@ -230,8 +234,11 @@ std::string calibrations_section(const std::vector<BenchmarkRun>& runs) {
       header_of(titles);
   for (const std::string& subject : subjects) {
     std::vector<std::string> cells = {subject.substr(std::string(kCalibration).size())};
+    double best_ms = 0.0;
     for (const PlainTime* one : all) {
-      if (one->subject == subject) cells.push_back(calibration_cell(*one));
+      if (one->subject != subject) continue;
+      if (one->way == "croon_best") best_ms = one->time_ms();
+      cells.push_back(calibration_cell(*one, best_ms));
     }
     text += row_of(cells);
   }

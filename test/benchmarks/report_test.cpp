@@ -202,9 +202,10 @@ TEST(BenchmarkSummary, ShowsWhereAFastAnswerIsWrong) {
   peer["wrong_ratio"] = 0.5;
   const BenchmarkRun run = read(file_of({best, peer}));
   const std::string text = summary_of({run}, "notebook/tables.md");
-  EXPECT_NE(text.find("| street_1000 | 500 ms, 0.0100°, 2.00 mm | 100 ms, 90.0°, 3000 mm, **50 % "
-                      "wrong** |"),
-            std::string::npos)
+  EXPECT_NE(
+      text.find("| street_1000 | 500 ms, 0.0100°, 2.00 mm | 100 ms (0.200 ×), 90.0°, 3000 mm, "
+                "**50 % wrong** |"),
+      std::string::npos)
       << text;
   EXPECT_EQ(page_of({run}, "2026-11-23").markdown.find("street_1000"), std::string::npos);
 }
