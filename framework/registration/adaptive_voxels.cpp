@@ -3,11 +3,11 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
-#include <tuple>
 
 #include "framework/geometry/measured_points.hpp"
-#include "framework/spatial/leaf_grid.hpp"
+#include "framework/spatial/leaf_numbering.hpp"
 
 namespace croon {
 namespace {
@@ -21,9 +21,12 @@ struct PlacedPoint {
   int view;  ///< An index into the clouds.
 };
 
-struct LeafOfPoint {
-  Eigen::Vector3i leaf;
-  int point;
+/// Points sorted by cube, in the order in which points and cubes first occur. Cubes that only one
+/// sensor sees have no points.
+struct CubesOfPoints {
+  std::vector<PlacedPoint> points;
+  std::vector<LeafKey> cubes;
+  std::vector<std::size_t> begins;  ///< Of each cube's points, and the end of all.
 };
 
 using Iterator = std::vector<PlacedPoint>::iterator;
@@ -72,25 +75,26 @@ class PatchSearch {
     return 0.5 * edge_m - std::abs(mean(axis)) < 3.0 * rms_m;
   }
 
+  /// Searches the eight parts of a cube.
   void cut(Iterator begin, Iterator end, const Eigen::Vector3f& centre, double edge_m) {
-    const auto quarter = static_cast<float>(0.25 * edge_m);
-    const auto halves = [&](Iterator from, Iterator to, int axis) {
-      return std::stable_partition(
-          from, to, [&](const PlacedPoint& point) { return point.common(axis) < centre(axis); });
+    constexpr int kParts = 8;
+    const auto part_of = [&](const PlacedPoint& point) {
+      const Eigen::Vector3f& p = point.common;
+      return 4 * static_cast<int>(!(p.x() < centre.x())) +
+             2 * static_cast<int>(!(p.y() < centre.y())) + static_cast<int>(!(p.z() < centre.z()));
     };
-    const Iterator x = halves(begin, end, 0);
-    for (const bool is_right : {false, true}) {
-      const Iterator x0 = is_right ? x : begin, x1 = is_right ? end : x;
-      const Iterator y = halves(x0, x1, 1);
-      for (const bool is_back : {false, true}) {
-        const Iterator y0 = is_back ? y : x0, y1 = is_back ? x1 : y;
-        const Iterator z = halves(y0, y1, 2);
-        for (const bool is_high : {false, true}) {
-          const Eigen::Vector3f towards(is_right ? 1.0F : -1.0F, is_back ? 1.0F : -1.0F,
-                                        is_high ? 1.0F : -1.0F);
-          search(is_high ? z : y0, is_high ? y1 : z, centre + quarter * towards, 0.5 * edge_m);
-        }
-      }
+    std::array<std::ptrdiff_t, kParts + 1> begins = {};
+    for (Iterator point = begin; point != end; ++point) ++begins[part_of(*point) + 1];
+    std::partial_sum(begins.begin(), begins.end(), begins.begin());
+    std::array<std::ptrdiff_t, kParts + 1> places = begins;
+    scratch_.assign(begin, end);
+    for (const PlacedPoint& point : scratch_) *(begin + places[part_of(point)]++) = point;
+    const auto quarter = static_cast<float>(0.25 * edge_m);
+    for (int part = 0; part < kParts; ++part) {
+      const Eigen::Vector3f towards((part & 4) != 0 ? 1.0F : -1.0F, (part & 2) != 0 ? 1.0F : -1.0F,
+                                    (part & 1) != 0 ? 1.0F : -1.0F);
+      search(begin + begins[part], begin + begins[part + 1], centre + quarter * towards,
+             0.5 * edge_m);
     }
   }
 
@@ -128,6 +132,7 @@ class PatchSearch {
   const std::vector<SensorCloud>& clouds_;
   const VoxelOptions& options_;
   std::vector<PlanePatch>& patches_;
+  std::vector<PlacedPoint> scratch_;
 };
 
 std::vector<PlacedPoint> placed_points(const std::vector<SensorCloud>& clouds,
@@ -154,16 +159,36 @@ std::vector<PlacedPoint> placed_points(const std::vector<SensorCloud>& clouds,
   return points;
 }
 
-/// The points sorted by cube; `leaves` contains the cube of each.
-std::vector<PlacedPoint> sorted(const std::vector<PlacedPoint>& points,
-                                std::vector<LeafOfPoint>& leaves) {
-  std::sort(leaves.begin(), leaves.end(), [](const LeafOfPoint& a, const LeafOfPoint& b) {
-    return std::tie(a.leaf.x(), a.leaf.y(), a.leaf.z(), a.point) <
-           std::tie(b.leaf.x(), b.leaf.y(), b.leaf.z(), b.point);
-  });
-  std::vector<PlacedPoint> result;
-  result.reserve(points.size());
-  for (const LeafOfPoint& leaf : leaves) result.push_back(points[leaf.point]);
+/// Sorts points by the cubes of `grid`, to which they are shifted: a counting sort.
+CubesOfPoints by_cube(const std::vector<PlacedPoint>& points, const LeafGrid& grid,
+                      const Eigen::Vector3d& shift) {
+  struct Cube {
+    int first_view;
+    bool is_seen_by_two;
+    std::size_t size;
+  };
+  LeafNumbering numbering;
+  std::vector<Cube> cubes;
+  std::vector<int> number_of_point;
+  number_of_point.reserve(points.size());
+  for (const PlacedPoint& point : points) {
+    const int number =
+        numbering.number_of(leaf_key(grid.leaf_of(point.common.cast<double>() + shift)));
+    number_of_point.push_back(number);
+    if (number == static_cast<int>(cubes.size())) cubes.push_back({point.view, false, 0});
+    cubes[number].is_seen_by_two |= point.view != cubes[number].first_view;
+    ++cubes[number].size;
+  }
+  CubesOfPoints result = {{}, numbering.leaves(), {0}};
+  for (const Cube& cube : cubes) {
+    result.begins.push_back(result.begins.back() + (cube.is_seen_by_two ? cube.size : 0));
+  }
+  result.points.resize(result.begins.back());
+  std::vector<std::size_t> places = result.begins;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const int number = number_of_point[i];
+    if (cubes[number].is_seen_by_two) result.points[places[number]++] = points[i];
+  }
   return result;
 }
 
@@ -205,25 +230,16 @@ std::vector<PlanePatch> plane_patches(const std::vector<SensorCloud>& clouds, co
   const LeafGrid grid(options.voxels_m.front());
   for (const double share : {0.0, 1.0 / 3.0}) {
     const Eigen::Vector3d shift = Eigen::Vector3d::Constant(share * options.voxels_m.front());
-    std::vector<LeafOfPoint> leaves;
-    leaves.reserve(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      leaves.push_back(
-          {grid.leaf_of(points[i].common.cast<double>() + shift), static_cast<int>(i)});
-    }
-    std::vector<PlacedPoint> ordered = sorted(points, leaves);
+    CubesOfPoints sorted = by_cube(points, grid, shift);
     PatchSearch search(clouds, options, patches);
-    for (std::size_t from = 0; from < leaves.size();) {
-      std::size_t to = from;
-      while (to < leaves.size() && leaves[to].leaf == leaves[from].leaf) ++to;
+    for (std::size_t i = 0; i < sorted.cubes.size(); ++i) {
+      const auto [x, y, z] = sorted.cubes[i];
       const Eigen::Vector3d centre =
-          (leaves[from].leaf.cast<double>().array() + 0.5) * options.voxels_m.front() -
-          shift.array();
-      const auto begin = ordered.begin();
-      search.search(begin + static_cast<std::ptrdiff_t>(from),
-                    begin + static_cast<std::ptrdiff_t>(to), centre.cast<float>(),
+          (Eigen::Array3d(x, y, z) + 0.5) * options.voxels_m.front() - shift.array();
+      const auto begin = sorted.points.begin();
+      search.search(begin + static_cast<std::ptrdiff_t>(sorted.begins[i]),
+                    begin + static_cast<std::ptrdiff_t>(sorted.begins[i + 1]), centre.cast<float>(),
                     options.voxels_m.front());
-      from = to;
     }
   }
   return patches;

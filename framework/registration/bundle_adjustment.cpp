@@ -25,8 +25,9 @@ bool is_step_small(const Eigen::VectorXd& step, std::size_t sensors) {
   return (step.tail(step.size() - offsets_at).array().abs() <= kOffset_s).all();
 }
 
+/// Whether the poses differ by much less than the standard deviations of real sensors' poses.
 bool are_same(const std::vector<RigidTransform>& a, const std::vector<RigidTransform>& b) {
-  constexpr double kRotation_rad = 2e-6, kTranslation_m = 2e-5;
+  constexpr double kRotation_rad = 1e-5, kTranslation_m = 1e-4;
   for (std::size_t k = 0; k < a.size(); ++k) {
     const PoseError moved = pose_error(a[k], b[k]);
     if (moved.rotation_rad > kRotation_rad || moved.translation_m > kTranslation_m) return false;

@@ -207,29 +207,47 @@ DeskewedTarget::DeskewedTarget(const JointScene& scene, const Twist& velocity,
                                const JointOptions& options)
     : scene_(scene),
       velocity_(velocity),
+      tree_(&scene.target.cloud->kd_tree()),
       normals_(scene.target.cloud->normals(options.normal_neighbours)),
       vehicle_weight_(options.vehicle_weight) {
   const Cloud& cloud = *scene.target.cloud;
+  double max_square_s2m2 = 0.0;
   for (std::size_t i = 0; i < cloud.points().size(); ++i) {
-    const double away_s = std::abs(time_s(static_cast<int>(i)));
-    max_time_s_ = std::max(max_time_s_, away_s);
-    max_time_times_range_sm_ =
-        std::max(max_time_times_range_sm_, away_s * cloud.points()[i].cast<double>().norm());
+    const double away_s = time_s(static_cast<int>(i));
+    max_time_s_ = std::max(max_time_s_, std::abs(away_s));
+    const double range_m2 = cloud.points()[i].squaredNorm();
+    max_square_s2m2 = std::max(max_square_s2m2, away_s * away_s * range_m2);
   }
+  max_time_times_range_sm_ = std::sqrt(max_square_s2m2);
   if (vehicle_weight_ < 1.0) vehicles_ = vehicles_of(cloud);
-  make_tree();
+  if (!scene.target.times_s.empty()) span_ = span_of(scene.target.times_s);
+  if (!vector_of(velocity).isZero(0.0)) move_tree();
 }
 
-void DeskewedTarget::make_tree() {
+void DeskewedTarget::move_tree() {
   const Cloud& cloud = *scene_.target.cloud;
   tree_velocity_ = velocity_;
-  if (vector_of(velocity_).isZero(0.0)) {
-    tree_ = &cloud.kd_tree();
-    return;
+  const double step_s = (span_.last_s - span_.first_s) / kSteps;
+  struct Motion {
+    Eigen::Matrix3f rotation;
+    Eigen::Vector3f translation;
+  };
+  std::vector<Motion> motions;
+  motions.reserve(kSteps + 1);
+  for (int step = 0; step <= kSteps; ++step) {
+    const RigidTransform T =
+        motion_over(velocity_, span_.first_s + step * step_s - scene_.reference_s);
+    motions.push_back({T.rotation.cast<float>(), T.translation.cast<float>()});
   }
-  moved_tree_ = std::make_unique<const KdTree>(
-      cloud.kd_tree(),
-      deskewed(cloud.points(), scene_.target.times_s, velocity_, scene_.reference_s));
+  const double steps_per_s = step_s > 0.0 ? 1.0 / step_s : 0.0;
+  moved_points_.resize(cloud.points().size());
+  for (std::size_t i = 0; i < moved_points_.size(); ++i) {
+    const double steps = (scene_.target.times_s[i] - span_.first_s) * steps_per_s;
+    const Motion& motion = motions[static_cast<std::size_t>(steps + 0.5)];
+    moved_points_[i] = motion.rotation * cloud.points()[i] + motion.translation;
+  }
+  if (!moved_tree_) moved_tree_ = std::make_unique<KdTree>(cloud.kd_tree());
+  moved_tree_->move_to(moved_points_);
   tree_ = moved_tree_.get();
 }
 
@@ -238,7 +256,7 @@ void DeskewedTarget::set_velocity(const Twist& velocity, double max_shift_m) {
   const Twist change = stepped(velocity, -vector_of(tree_velocity_));
   const double shift_m = max_time_s_ * change.linear_mps.norm() +
                          max_time_times_range_sm_ * change.angular_radps.norm();
-  if (shift_m > max_shift_m) make_tree();
+  if (shift_m > max_shift_m) move_tree();
 }
 
 Neighbour DeskewedTarget::nearest(const Eigen::Vector3d& query, double max_distance_m) const {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "framework/registration/joint_registration.hpp"
+#include "framework/spatial/deskew.hpp"
 #include "framework/spatial/leaf_grid.hpp"
 
 namespace croon {
@@ -20,7 +21,8 @@ class DeskewedTarget {
 
   const JointScene& scene() const { return scene_; }
   const Twist& velocity() const { return velocity_; }
-  /// The point nearest to `query`, using the positions in the tree.
+  /// The point nearest to `query`, using the positions in the tree, which are as if the scan had
+  /// been measured in kSteps steps.
   Neighbour nearest(const Eigen::Vector3d& query, double max_distance_m) const;
   /// A point at the reference time and its unit normal there, zero if it has none: the normal of
   /// the scan as measured, rotated with the point, because a point's neighbours were measured at
@@ -38,15 +40,19 @@ class DeskewedTarget {
   }
 
  private:
-  void make_tree();
+  static constexpr int kSteps = 1024;
+
+  void move_tree();
 
   const JointScene& scene_;
   Twist velocity_;
   Twist tree_velocity_;  ///< For which the points in the tree were moved.
   /// Not in a Cloud: computations for one velocity are work of the trial, not shared work.
-  std::unique_ptr<const KdTree> moved_tree_;
-  const KdTree* tree_ = nullptr;          ///< Of the moved points, or the shared one of the scan.
+  std::unique_ptr<KdTree> moved_tree_;
+  Points moved_points_;
+  const KdTree* tree_;                    ///< Of the moved points, or the shared one of the scan.
   const Normals& normals_;                ///< Of the scan as measured.
+  TimeSpan span_;                         ///< Of the times of all points.
   double max_time_s_ = 0.0;               ///< Maximum time from the reference time.
   double max_time_times_range_sm_ = 0.0;  ///< Maximum product of that time and a point's range.
   double vehicle_weight_;

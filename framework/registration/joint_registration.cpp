@@ -38,22 +38,32 @@ class JointProblem {
   /// Moves `outcome` by Gauss-Newton at one distance until convergence.
   void run(JointRegistration& outcome, std::vector<DeskewedTarget>& targets,
            double max_distance_m) const {
+    const bool is_last = max_distance_m == options_.max_distances_m.back();
+    const double max_deviations =
+        is_last ? options_.step_tolerance.back() : options_.step_tolerance.front();
     outcome.converged = false;
     Eigen::VectorXd last = Eigen::VectorXd::Zero(unknowns_);
     for (int i = 0; i < options_.max_iterations && !outcome.converged; ++i) {
-      Eigen::VectorXd step = step_at(outcome, targets, max_distance_m);
+      auto [step, in_deviations] = step_at(outcome, targets, max_distance_m);
       const double factor = steps_ahead(last, step);
       last = factor > 1.0 ? Eigen::VectorXd::Zero(unknowns_) : step;
       step *= factor;
-      outcome.converged = is_small(step, max_distance_m);
+      outcome.converged = in_deviations < max_deviations || is_small(step, max_distance_m);
       move(outcome.state, step);
       ++outcome.iterations;
     }
   }
 
  private:
-  Eigen::VectorXd step_at(JointRegistration& outcome, std::vector<DeskewedTarget>& targets,
-                          double max_distance_m) const {
+  struct Step {
+    Eigen::VectorXd vector;
+    /// Its length in standard deviations of the unknowns, if residuals were independent: the
+    /// Newton decrement (Boyd and Vandenberghe, Convex Optimization, section 9.5.1).
+    double in_deviations;
+  };
+
+  Step step_at(JointRegistration& outcome, std::vector<DeskewedTarget>& targets,
+               double max_distance_m) const {
     // A tree whose points have moved by less finds about the same neighbours; residuals use the
     // exact positions.
     constexpr double kShiftShare = 0.04;
@@ -85,7 +95,10 @@ class JointProblem {
     }
     outcome.rmse_m = weight_sum > 0.0 ? std::sqrt(square_sum / weight_sum) : 0.0;
     add_priors(outcome.state, system);
-    return -system.hessian.ldlt().solve(system.gradient);
+    Step step = {-system.hessian.ldlt().solve(system.gradient), 0.0};
+    step.in_deviations =
+        std::sqrt(std::max(0.0, -step.vector.dot(system.gradient))) / outcome.rmse_m;
+    return step;
   }
 
   /// Adds the priors of velocities and offsets, as residuals of the kernel's width, and a damping,
@@ -193,6 +206,10 @@ const params::Table<JointOptions>& joint_table() {
                        "target's; at 0 the clocks agree."),
         params::integer("max_iterations", &JointOptions::max_iterations, {1, 10000},
                         "Maximum number of iterations of each pass."),
+        params::numbers("step_tolerance", &JointOptions::step_tolerance, {0.0, 1e3},
+                        "A pass ends when its step is shorter than this, in standard deviations "
+                        "of the unknowns if the residuals were independent: the first for passes "
+                        "before the last, the second for the last."),
         params::integer("points", &JointOptions::points, {30, 100000000},
                         "Number of points of each scan that are used, evenly spaced; four times as "
                         "many to compare speeds."),
@@ -224,6 +241,8 @@ const params::Table<JointOptions>& joint_table() {
                  "max_distances_m must have a number");
     rows.require([](const JointOptions& o) { return o.velocity_std.size() == 2; },
                  "velocity_std must have two numbers, m/s and rad/s");
+    rows.require([](const JointOptions& o) { return o.step_tolerance.size() == 2; },
+                 "step_tolerance must have two numbers");
     rows.require([](const JointOptions& o) { return is_clock_std(o.clock_offset_std_s); },
                  kClockStdIs);
     return rows;

@@ -139,6 +139,7 @@ std::vector<std::optional<double>> leads_over_rivals(const JointScene& scene,
   // Most starts converge to the same few states, so those that others reach go on alone.
   std::vector<JointState> near = starts;
   JointOptions pass = coarse_options;
+  pass.step_tolerance.back() = pass.step_tolerance.front();
   for (const double distance_m : coarse_options.max_distances_m) {
     pass.max_distances_m = {distance_m};
     near = different_from(state, registered({coarse}, near, pass));

@@ -8,6 +8,8 @@
 namespace croon {
 namespace {
 
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
 /// Divides the points recursively until they fit into leaves.
 class KdBuilder {
  public:
@@ -28,7 +30,6 @@ class KdBuilder {
   using Leaf = KdNodes::Leaf;
   using Node = KdNodes::Node;
   static constexpr int kLeafSize = KdNodes::kLeafSize;
-  static constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
   struct IndexedPoint {
     Eigen::Vector3f point;
@@ -125,9 +126,10 @@ KdNodes::KdNodes(const Points& points) : size(static_cast<int>(points.size())) {
 void KdNodes::move_to(const Points& points) {
   const auto box_of_leaf = [](const Leaf& leaf) {
     Eigen::AlignedBox3f box;
-    for (int i = 0; i < kLeafSize && leaf.indices[i] >= 0; ++i) {
-      box.extend(
-          Eigen::Vector3f(leaf.coordinates[0][i], leaf.coordinates[1][i], leaf.coordinates[2][i]));
+    for (int axis = 0; axis < 3; ++axis) {
+      const Distances& all = leaf.coordinates[axis];
+      box.min()[axis] = all.minCoeff();  // Unused entries are infinite.
+      box.max()[axis] = (all < kInfinity).select(all, -kInfinity).maxCoeff();
     }
     return box;
   };

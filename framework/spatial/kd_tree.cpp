@@ -273,19 +273,19 @@ struct KdTree::Tree : KdNodes {
   using KdNodes::KdNodes;
 };
 
-KdTree::KdTree(const Points& points) : tree_(std::make_unique<const Tree>(points)) {}
+KdTree::KdTree(const Points& points) : tree_(std::make_unique<Tree>(points)) {}
 
-KdTree::KdTree(const KdTree& tree, const Points& moved) {
-  if (static_cast<int>(moved.size()) != tree.tree_->size) {
-    throw std::invalid_argument("a moved tree needs " + std::to_string(tree.tree_->size) +
-                                " points, not " + std::to_string(moved.size()));
-  }
-  auto nodes = std::make_unique<Tree>(*tree.tree_);
-  nodes->move_to(moved);
-  tree_ = std::move(nodes);
-}
+KdTree::KdTree(const KdTree& other) : tree_(std::make_unique<Tree>(*other.tree_)) {}
 
 KdTree::~KdTree() = default;
+
+void KdTree::move_to(const Points& points) {
+  if (static_cast<int>(points.size()) != tree_->size) {
+    throw std::invalid_argument("a moved tree needs " + std::to_string(tree_->size) +
+                                " points, not " + std::to_string(points.size()));
+  }
+  tree_->move_to(points);
+}
 
 Neighbour KdTree::nearest(const Eigen::Vector3f& query, float max_distance_m) const {
   NearestResult result(std::min(max_distance_m * max_distance_m, kUnbounded));

@@ -2,10 +2,9 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <unordered_map>
 
 #include "framework/geometry/measured_points.hpp"
-#include "framework/spatial/leaf_grid.hpp"
+#include "framework/spatial/leaf_numbering.hpp"
 #include "framework/stage/preprocessor.hpp"
 #include "framework/stage/stage_entry.hpp"
 
@@ -31,40 +30,29 @@ struct LeafSum {
   std::uint64_t points = 0;
 };
 
-struct LeafHash {
-  std::size_t operator()(const LeafKey& leaf) const {
-    std::uint64_t hash = 0;
-    for (const int index : leaf) {
-      hash = (hash ^ static_cast<std::uint32_t>(index)) * 0x9e3779b97f4a7c15ULL;
-      hash ^= hash >> 32;
-    }
-    return static_cast<std::size_t>(hash);
-  }
-};
-
 class VoxelDownsample final : public Preprocessor {
  public:
   explicit VoxelDownsample(const Params& params) : grid_(params.leaf_size_m) {}
 
   PointCloud apply(const PointCloud& cloud) const override {
-    std::unordered_map<LeafKey, std::size_t, LeafHash> indices;  // Into `leaves`.
+    LeafNumbering numbering;
     std::vector<LeafSum> leaves;  // In the order of their first points in the cloud.
     std::vector<std::size_t> first_points;
     const std::vector<std::uint32_t> measured = measured_points(cloud);
     const Channel* const time = find_channel(cloud, kTime);
     for (std::size_t i = 0; i < cloud.size(); ++i) {
       const Eigen::Vector3d point = cloud.points[i].cast<double>();
-      const auto [entry, is_new] =
-          indices.try_emplace(leaf_key(grid_.leaf_of(point)), leaves.size());
-      if (is_new) {
+      const auto number =
+          static_cast<std::size_t>(numbering.number_of(leaf_key(grid_.leaf_of(point))));
+      if (number == leaves.size()) {
         leaves.emplace_back();
         first_points.push_back(i);
       }
-      LeafSum& leaf = leaves[entry->second];
+      LeafSum& leaf = leaves[number];
       leaf.sum += measured[i] * point;
       leaf.points += measured[i];
       if (time == nullptr) continue;
-      leaf.time_sum += measured[i] * (time->value(i) - time->value(first_points[entry->second]));
+      leaf.time_sum += measured[i] * (time->value(i) - time->value(first_points[number]));
     }
     PointCloud thinned = selected(cloud, first_points);
     std::vector<std::uint32_t> counts(leaves.size());

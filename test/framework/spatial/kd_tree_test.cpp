@@ -79,7 +79,8 @@ TEST(KdTree, OfMovedPointsAgreesWithLookingAtEveryPoint) {
     for (const Eigen::Vector3f& p : before) near.push_back((T * p.cast<double>()).cast<float>());
     // The second cloud has nothing to do with the first.
     for (const Points& moved : {near, test::random_cloud(rng, size, 5.0)}) {
-      const KdTree moved_tree(tree, moved);
+      KdTree moved_tree(tree);
+      moved_tree.move_to(moved);
       for (const Eigen::Vector3f& query : test::random_cloud(rng, 20, 7.0)) {
         expect_exact(moved_tree, moved, query);
         expect_exact(tree, before, query);
@@ -90,8 +91,8 @@ TEST(KdTree, OfMovedPointsAgreesWithLookingAtEveryPoint) {
 
 TEST(KdTree, MovesTheSameNumberOfPointsOnly) {
   Rng rng = test::test_rng();
-  const KdTree tree(test::random_cloud(rng, 30, 1.0));
-  EXPECT_THROW(KdTree(tree, test::random_cloud(rng, 29, 1.0)), std::invalid_argument);
+  KdTree tree(test::random_cloud(rng, 30, 1.0));
+  EXPECT_THROW(tree.move_to(test::random_cloud(rng, 29, 1.0)), std::invalid_argument);
 }
 
 TEST(KdTree, OfEquallyNearPointsTheFirstIsNearest) {
