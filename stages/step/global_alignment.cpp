@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <functional>
+#include <limits>
 
 #include "framework/base/error.hpp"
 #include "framework/pipeline/hypothesis_choice.hpp"
@@ -87,20 +89,24 @@ class GlobalAlignment final : public Step {
                                    const Levels& source) const {
     std::vector<Hypothesis> first;
     std::vector<Hypothesis> others;
+    std::vector<TurnedCells> cells;
+    for (const Levelled& above : source) cells.emplace_back(above.points, params_);
     for (std::size_t k = 0; k < target.size(); ++k) {
       const auto view = cloud.once<LayeredMap>("layered_map", map_key(k), [&] {
         return std::make_shared<const LayeredMap>(target[k].points,
                                                   target[k].T_level_cloud.translation.z(), params_);
       });
       const RigidTransform T_target_level = target[k].T_level_cloud.inverse();
-      for (const Levelled& above : source) {
-        const std::vector<MapPeak> peaks = view->match(above.points, params_.peaks);
+      for (std::size_t n = 0; n < source.size(); ++n) {
+        const std::vector<MapPeak> peaks =
+            view->match(cells[n], params_.peaks, min_score(others, first.size() + 1));
         for (std::size_t i = 0; i < peaks.size(); ++i) {
           const RigidTransform T_level_level{
               rotation_exp(peaks[i].yaw_rad * Eigen::Vector3d::UnitZ()),
               {peaks[i].x_m, peaks[i].y_m, 0.0}};
           (i == 0 ? first : others)
-              .push_back({T_target_level * T_level_level * above.T_level_cloud, peaks[i].score});
+              .push_back(
+                  {T_target_level * T_level_level * source[n].T_level_cloud, peaks[i].score});
         }
       }
     }
@@ -114,6 +120,18 @@ class GlobalAlignment final : public Step {
     first.insert(first.end(), others.begin(), others.end());
     first.resize(std::min(first.size(), static_cast<std::size_t>(params_.hypotheses)));
     return first;
+  }
+
+  /// The score that the next of the `others` must reach to be refined, as far as is known.
+  double min_score(const std::vector<Hypothesis>& others, std::size_t firsts) const {
+    const auto all = static_cast<std::size_t>(params_.hypotheses);
+    if (firsts >= all) return std::numeric_limits<double>::infinity();
+    if (others.size() < all - firsts) return 0.0;
+    std::vector<double> scores;
+    for (const Hypothesis& pose : others) scores.push_back(pose.score);
+    const auto last = scores.begin() + static_cast<std::ptrdiff_t>(all - firsts - 1);
+    std::nth_element(scores.begin(), last, scores.end(), std::greater<>());
+    return *last;
   }
 
   /// Identifies everything that the target's map above plane `index` depends on.

@@ -27,7 +27,7 @@ TEST(LayeredMap, FindsYawAndShiftOverTheWholeCircle) {
     const RigidTransform T = {rotation_exp({0.0, 0.0, yaw_rad}),
                               {rng.uniform(-8.0, 8.0), rng.uniform(-8.0, 8.0), 0.0}};
     const Points source = transformed(levelled_street(rng, i, 12000), T.inverse());
-    const std::vector<MapPeak> peaks = view.match(source, 3);
+    const std::vector<MapPeak> peaks = view.match({source, options}, 3);
     ASSERT_FALSE(peaks.empty());
     EXPECT_LT(std::abs(std::remainder(peaks[0].yaw_rad - yaw_rad, 2.0 * kPi)),
               rad_from_deg(1.5 * options.yaw_step_deg))
@@ -41,7 +41,7 @@ TEST(LayeredMap, PeaksAreApartAndBestFirst) {
   Rng rng = test::test_rng(2);
   const LayeredMapOptions options;
   const LayeredMap view(levelled_street(rng, 3, 20000), 2.0, options);
-  const std::vector<MapPeak> peaks = view.match(levelled_street(rng, 3, 12000), 10);
+  const std::vector<MapPeak> peaks = view.match({levelled_street(rng, 3, 12000), options}, 10);
   ASSERT_EQ(peaks.size(), 10U);
   for (std::size_t i = 0; i < peaks.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
@@ -85,7 +85,7 @@ TEST(LayeredMap, FreeSpaceCountsAgainstWhatIsInFrontOfASurfaceOnly) {
       Points seen = wall;
       add_wall(seen, {object_m, -2.0}, {object_m, 2.0});
       options.free_space = free_space;
-      return LayeredMap(wall, 1.5, options).match(seen, 1).at(0).score;
+      return LayeredMap(wall, 1.5, options).match({seen, options}, 1).at(0).score;
     };
     const double in_front_m = rng.uniform(4.0, ahead_m - 4.0);
     EXPECT_LT(best_score(in_front_m, 2.0), best_score(in_front_m, 0.0) - 0.1) << i;
@@ -98,8 +98,8 @@ TEST(LayeredMap, HasNoPeakWhereNothingStandsOnTheGround) {
   Points plain;
   for (int i = 0; i < 1000; ++i) plain.emplace_back(0.1F * static_cast<float>(i % 30), 0.0F, 0.0F);
   Rng rng = test::test_rng(3);
-  EXPECT_TRUE(LayeredMap(levelled_street(rng, 3, 5000), 2.0, {}).match(plain, 3).empty());
-  EXPECT_TRUE(LayeredMap(plain, 2.0, {}).match(levelled_street(rng, 3, 5000), 3).empty());
+  EXPECT_TRUE(LayeredMap(levelled_street(rng, 3, 5000), 2.0, {}).match({plain, {}}, 3).empty());
+  EXPECT_TRUE(LayeredMap(plain, 2.0, {}).match({levelled_street(rng, 3, 5000), {}}, 3).empty());
 }
 
 }  // namespace
