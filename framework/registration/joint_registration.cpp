@@ -43,12 +43,15 @@ class JointProblem {
         is_last ? options_.step_tolerance.back() : options_.step_tolerance.front();
     outcome.converged = false;
     Eigen::VectorXd last = Eigen::VectorXd::Zero(unknowns_);
+    std::vector<Eigen::VectorXd> steps;
     for (int i = 0; i < options_.max_iterations && !outcome.converged; ++i) {
       auto [step, in_deviations] = step_at(outcome, targets, max_distance_m);
       const double factor = steps_ahead(last, step);
       last = factor > 1.0 ? Eigen::VectorXd::Zero(unknowns_) : step;
       step *= factor;
-      outcome.converged = in_deviations < max_deviations || is_small(step, max_distance_m);
+      steps.push_back(step);
+      outcome.converged = in_deviations < max_deviations || is_small(step, max_distance_m) ||
+                          lead_back(steps, max_distance_m);
       move(outcome.state, step);
       ++outcome.iterations;
     }
@@ -181,6 +184,18 @@ class JointProblem {
     }
     return std::all_of(velocities_.begin(), velocities_.end(),
                        [&](const Block& velocity) { return is_still(velocity, kScan_s); });
+  }
+
+  /// Whether the last few steps lead back to where they began: the correspondences alternate, and
+  /// no further iteration changes that.
+  bool lead_back(const std::vector<Eigen::VectorXd>& steps, double max_distance_m) const {
+    constexpr std::size_t kMaxPeriod = 6;
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(unknowns_);
+    for (std::size_t n = 0; n < std::min(steps.size(), kMaxPeriod); ++n) {
+      sum += steps[steps.size() - 1 - n];
+      if (n > 0 && is_small(sum, max_distance_m)) return true;
+    }
+    return false;
   }
 
   const std::vector<JointScene>& scenes_;

@@ -48,7 +48,7 @@ struct JointOptions {
   std::vector<double> velocity_std = {30.0, 1.0};
   double clock_offset_std_s = 0.0;
   int max_iterations = 30;
-  std::vector<double> step_tolerance = {0.3, 0.03};
+  std::vector<double> step_tolerance = {0.1, 0.03};
   int points = 3000;
   int normal_neighbours = 10;
   double max_normal_angle_deg = 45.0;
