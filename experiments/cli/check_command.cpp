@@ -6,6 +6,7 @@
 #include "experiments/cli/options.hpp"
 #include "experiments/cli/requested_calibration.hpp"
 #include "experiments/cli/watch.hpp"
+#include "framework/base/error.hpp"
 #include "framework/base/text.hpp"
 #include "framework/calibration/check_rig.hpp"
 
@@ -113,6 +114,9 @@ class CheckCommand final : public Command {
   int run(const Console& console) override {
     options_.colours = console.colours;
     if (watch_) return watch_command(options_, console.out, console.err);
+    if (options_.false_alarm_every_h || options_.until_idle_s) {
+      throw InputError("", "", "--false-alarm-every and --until-idle require --watch");
+    }
     return check_command(options_, console.catalogue, console.out, console.err);
   }
 

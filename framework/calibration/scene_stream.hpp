@@ -32,7 +32,7 @@ class SceneStream {
   std::optional<Scene> next();
 
   /// How long a missing or incomplete cloud is waited for.
-  static constexpr double kPatience_s = 2.0;
+  static constexpr double kPatience_s = 5.0;
 
  private:
   /// The files of one sensor that may grow.

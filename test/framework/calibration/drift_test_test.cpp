@@ -10,19 +10,19 @@
 namespace croon {
 namespace {
 
-constexpr double kStd_rad = rad_from_deg(0.03);
-constexpr double kStd_m = 0.006;
+constexpr double kDriftStd_rad = rad_from_deg(0.03);
+constexpr double kDriftStd_m = 0.006;
 
-Vector6d deviations() {
+Vector6d drift_deviations() {
   Vector6d stds;
-  stds << Eigen::Vector3d::Constant(kStd_rad), Eigen::Vector3d::Constant(kStd_m);
+  stds << Eigen::Vector3d::Constant(kDriftStd_rad), Eigen::Vector3d::Constant(kDriftStd_m);
   return stds;
 }
 
-/// Errors with the standard deviations above and the lag-one correlation `correlation`.
-class Errors {
+/// DriftErrors with the standard deviations above and the lag-one correlation `correlation`.
+class DriftErrors {
  public:
-  Errors(std::uint64_t seed, double correlation)
+  DriftErrors(std::uint64_t seed, double correlation)
       : rng_(StreamKey(seed).with("drift")), correlation_(correlation) {}
 
   Vector6d next() {
@@ -31,7 +31,7 @@ class Errors {
       last_(i) = is_first_ ? rng_.normal() : correlation_ * last_(i) + fresh;
     }
     is_first_ = false;
-    return last_.cwiseProduct(deviations());
+    return last_.cwiseProduct(drift_deviations());
   }
 
  private:
@@ -43,18 +43,18 @@ class Errors {
 
 /// The number of scans until the test raises an alarm, at most `max_scans`, with the constant
 /// `offset` from scan `from`.
-std::size_t scans_until_alarm(DriftTest& test, Errors& errors, const Vector6d& offset,
+std::size_t scans_until_alarm(DriftTest& test, DriftErrors& errors, const Vector6d& offset,
                               std::size_t from, std::size_t max_scans) {
   for (std::size_t k = 0; k < max_scans; ++k) {
     const Vector6d error = errors.next();
-    test.add(k, k < from ? error : Vector6d(error + offset), deviations());
+    test.add(k, k < from ? error : Vector6d(error + offset), drift_deviations());
     if (test.state() == DriftState::drifted) return k;
   }
   return max_scans;
 }
 
 /// At the edge of the tolerance, where false alarms are most frequent.
-Vector6d tolerated() {
+Vector6d tolerated_offset() {
   Vector6d offset;
   offset << Eigen::Vector3d::Constant(kScatter_rad), Eigen::Vector3d::Constant(kScatter_m);
   return offset;
@@ -69,8 +69,8 @@ TEST(DriftTest, FalseAlarmsAreRarerThanStated) {
     double scans = 0.0, alarms = 0.0;
     for (std::uint64_t seed = 0; seed < 30; ++seed) {
       DriftTest test(options);
-      Errors errors(seed, correlation);
-      const std::size_t alarm = scans_until_alarm(test, errors, tolerated(), 0, kLast);
+      DriftErrors errors(seed, correlation);
+      const std::size_t alarm = scans_until_alarm(test, errors, tolerated_offset(), 0, kLast);
       scans += static_cast<double>(alarm);
       if (alarm < kLast) alarms += 1.0;
     }
@@ -85,7 +85,7 @@ TEST(DriftTest, NoticesAKnockWithinTwentyScansAndSaysWhichAndWhen) {
       DriftTestOptions options;
       options.threshold = drift_threshold(360000.0, 24);
       DriftTest test(options);
-      Errors errors(static_cast<std::uint64_t>(dof), 0.0);
+      DriftErrors errors(static_cast<std::uint64_t>(dof), 0.0);
       const double size = sign * (dof < 3 ? rad_from_deg(0.2) : 0.02);
       const Vector6d offset = size * Vector6d::Unit(dof);
       const std::size_t alarm = scans_until_alarm(test, errors, offset, kKnock, kLast);
@@ -102,7 +102,7 @@ TEST(DriftTest, NoticesAKnockWithinTwentyScansAndSaysWhichAndWhen) {
 
 TEST(DriftTest, SaysThatAPoseWasWrongFromTheStart) {
   DriftTest test;
-  Errors errors(1, 0.0);
+  DriftErrors errors(1, 0.0);
   const Vector6d offset = 0.05 * Vector6d::Unit(3);
   EXPECT_LT(scans_until_alarm(test, errors, offset, 0, 100), 100U);
   EXPECT_TRUE(test.largest_change().is_from_start);
@@ -110,17 +110,17 @@ TEST(DriftTest, SaysThatAPoseWasWrongFromTheStart) {
 
 TEST(DriftTest, ThreeBadScansRaiseNoAlarm) {
   DriftTest test;
-  Errors errors(2, 0.0);
+  DriftErrors errors(2, 0.0);
   for (std::size_t k = 0; k < 1000; ++k) {
     const bool is_bad = k % 50 < 3 && k > 100;
-    test.add(k, errors.next() + (is_bad ? 1.0 : 0.0) * Vector6d::Ones(), deviations());
+    test.add(k, errors.next() + (is_bad ? 1.0 : 0.0) * Vector6d::Ones(), drift_deviations());
     EXPECT_NE(test.state(), DriftState::drifted) << k;
   }
 }
 
 TEST(DriftTest, TreatsDegreesOfFreedomAlike) {
   DriftTest forwards, backwards;
-  Errors errors(3, 0.3);
+  DriftErrors errors(3, 0.3);
   const auto reversed = [](const Vector6d& v) {
     Vector6d w;
     w << v.head<3>().reverse(), v.tail<3>().reverse();
@@ -128,8 +128,8 @@ TEST(DriftTest, TreatsDegreesOfFreedomAlike) {
   };
   for (std::size_t k = 0; k < 200; ++k) {
     const Vector6d error = 3.0 * errors.next();
-    forwards.add(k, error, deviations());
-    backwards.add(k, reversed(error), reversed(deviations()));
+    forwards.add(k, error, drift_deviations());
+    backwards.add(k, reversed(error), reversed(drift_deviations()));
     EXPECT_EQ(forwards.statistics(), reversed(backwards.statistics()));
     EXPECT_EQ(forwards.state(), backwards.state());
   }
@@ -137,10 +137,10 @@ TEST(DriftTest, TreatsDegreesOfFreedomAlike) {
 
 TEST(DriftTest, MeasuresTheCorrelationOfTheErrors) {
   DriftTest independent, correlated;
-  Errors a(4, 0.0), b(4, 0.8);
+  DriftErrors a(4, 0.0), b(4, 0.8);
   for (std::size_t k = 0; k < 5000; ++k) {
-    independent.add(k, a.next(), deviations());
-    correlated.add(k, b.next(), deviations());
+    independent.add(k, a.next(), drift_deviations());
+    correlated.add(k, b.next(), drift_deviations());
   }
   // The variance of a mean of n correlated errors is up to (1 + r) / (1 - r) = 9 times as large.
   EXPECT_LT(independent.inflations().maxCoeff(), 1.5);
@@ -150,12 +150,12 @@ TEST(DriftTest, MeasuresTheCorrelationOfTheErrors) {
 
 TEST(DriftTest, GoesBackToRightAfterARepair) {
   DriftTest test;
-  Errors errors(5, 0.0);
+  DriftErrors errors(5, 0.0);
   std::size_t changes = 0;
   DriftState last = test.state();
   for (std::size_t k = 0; k < 700; ++k) {
     const bool is_off = k >= 200 && k < 400;
-    test.add(k, errors.next() + (is_off ? 0.04 : 0.0) * Vector6d::Unit(4), deviations());
+    test.add(k, errors.next() + (is_off ? 0.04 : 0.0) * Vector6d::Unit(4), drift_deviations());
     if (test.state() != last) ++changes;
     last = test.state();
   }
@@ -165,14 +165,14 @@ TEST(DriftTest, GoesBackToRightAfterARepair) {
 
 TEST(DriftTest, IsUndecidableWithoutScansAndWithUncertainOnes) {
   DriftTest test;
-  Errors errors(6, 0.0);
-  for (std::size_t k = 0; k < 50; ++k) test.add(k, errors.next(), deviations());
+  DriftErrors errors(6, 0.0);
+  for (std::size_t k = 0; k < 50; ++k) test.add(k, errors.next(), drift_deviations());
   EXPECT_EQ(test.state(), DriftState::right);
   for (int k = 0; k < 16; ++k) test.add_missing();
   EXPECT_EQ(test.state(), DriftState::undecidable);
-  for (std::size_t k = 70; k < 90; ++k) test.add(k, errors.next(), deviations());
+  for (std::size_t k = 70; k < 90; ++k) test.add(k, errors.next(), drift_deviations());
   EXPECT_EQ(test.state(), DriftState::right);
-  const Vector6d along_the_road = deviations() + 10.0 * Vector6d::Unit(3);
+  const Vector6d along_the_road = drift_deviations() + 10.0 * Vector6d::Unit(3);
   for (std::size_t k = 90; k < 110; ++k) test.add(k, errors.next(), along_the_road);
   EXPECT_EQ(test.state(), DriftState::undecidable);
 }
