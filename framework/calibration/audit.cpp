@@ -106,8 +106,12 @@ class JackknifeSystem {
     const DeskewedTarget target(scene, state.velocities.front(), options);
     const JointView view = last_view(state, target.velocity(), options);
     counts_.assign(scene.sources.size(), 0);
+    std::vector<std::map<JointCell, CellEquations>> by_source(scene.sources.size());
+    for_each_in_parallel(by_source.size(), [&](std::size_t j) {
+      by_source[j] = cell_equations(scene.sources[j], target, view);
+    });
     for (std::size_t j = 0; j < scene.sources.size(); ++j) {
-      for (const auto& [cell, sums] : cell_equations(scene.sources[j], target, view)) {
+      for (const auto& [cell, sums] : by_source[j]) {
         BlockSystem& system = cells_.try_emplace(cell, BlockSystem::zero(unknowns_)).first->second;
         add(j, sums, system);
         add(j, sums, all_);
