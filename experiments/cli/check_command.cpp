@@ -5,6 +5,8 @@
 #include "experiments/cli/commands.hpp"
 #include "experiments/cli/options.hpp"
 #include "experiments/cli/requested_calibration.hpp"
+#include "experiments/cli/watch.hpp"
+#include "framework/base/error.hpp"
 #include "framework/base/text.hpp"
 #include "framework/calibration/check_rig.hpp"
 
@@ -98,15 +100,29 @@ class CheckCommand final : public Command {
         ->required();
     add_path(command, "INPUT", options_.inputs, "Clouds, as for croon calibrate.")->required();
     add_rig_options(command, options_);
+    CLI::Option* const watch = command.add_flag(
+        "--watch", watch_, "Audit scan by scan, also in folders that grow, and say what changes.");
+    add_path(command, "--log", options_.log,
+             "With --watch: new CSV file, a row per scan and sensor.")
+        ->needs(watch);
+    add_number(command, "--false-alarm-every", options_.false_alarm_every_h, 0.001, 1e6,
+               "With --watch: mean time between false alarms at 10 Hz, hours; default 10.");
+    add_number(command, "--until-idle", options_.until_idle_s, 0.0, 1e9,
+               "With --watch: end if a growing folder has no new scan for this time, s.");
   }
 
   int run(const Console& console) override {
     options_.colours = console.colours;
+    if (watch_) return watch_command(options_, console.out, console.err);
+    if (options_.false_alarm_every_h || options_.until_idle_s) {
+      throw InputError("", "", "--false-alarm-every and --until-idle require --watch");
+    }
     return check_command(options_, console.catalogue, console.out, console.err);
   }
 
  private:
-  CalibrateOptions options_;
+  WatchOptions options_;
+  bool watch_ = false;
 };
 
 }  // namespace

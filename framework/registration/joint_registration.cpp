@@ -76,10 +76,11 @@ class JointProblem {
       const Twist& velocity = outcome.state.velocities[s];
       DeskewedTarget& target = targets[s];
       target.set_velocity(velocity, kShiftShare * max_distance_m);
-      for (const JointScene::Source& source : scene.sources) {
-        pairs[s].push_back(
-            pair_equations(source, target, {outcome.state, velocity, max_distance_m, options_}));
-      }
+      pairs[s].resize(scene.sources.size());
+      for_each_in_parallel(scene.sources.size(), [&](std::size_t j) {
+        pairs[s][j] = pair_equations(scene.sources[j], target,
+                                     {outcome.state, velocity, max_distance_m, options_});
+      });
     });
     BlockSystem system = BlockSystem::zero(unknowns_);
     double square_sum = 0.0, weight_sum = 0.0;

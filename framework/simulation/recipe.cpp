@@ -195,6 +195,12 @@ const params::Table<Recipe>& recipe_table() {
                  "The speed of the car in all scenes; without it each scene has its own. The road "
                  "ahead is kept clear only for the scene's own speed: a faster car may drive "
                  "through objects ahead. Matters with sweep_distortion.")),
+      params::optional(
+          integer("scans_per_drive", &Recipe::scans_per_drive, {1, 1000},
+                  "Number of consecutive scenes that are scans of one drive through the same "
+                  "surroundings; without it each scene is a place of its own.")),
+      params::optional(number("scan_interval_s", &Recipe::scan_interval_s, {0.001, 10.0},
+                              "Time between two scans of a drive; without it 0.1.")),
       integer("seed", &Recipe::seed, {0, std::numeric_limits<int>::max()},
               "Seed of the scenes; the experiment's own seed affects only the initial guesses."),
   };

@@ -14,6 +14,10 @@ struct Recipe {
   Mix mix = paper_mix();
   Noise noise;
   double speed_mps = -1.0;  ///< Of the car in all scenes; if negative, each scene has its own.
+  /// Number of consecutive scenes that are scans of one drive: they show the same world, in which
+  /// the car and others have moved on by `scan_interval_s`.
+  int scans_per_drive = 1;
+  double scan_interval_s = 0.1;
   int seed = 1;
 };
 

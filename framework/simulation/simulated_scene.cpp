@@ -12,8 +12,28 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// The number of the scan `index` in its drive.
+std::uint64_t scan_in_drive(const Recipe& recipe, std::uint64_t index) {
+  return index % static_cast<std::uint64_t>(recipe.scans_per_drive);
+}
+
+/// The time of the scan `index` after the beginning of its drive.
+double begin_of(const Recipe& recipe, std::uint64_t index) {
+  return recipe.scan_interval_s * static_cast<double>(scan_in_drive(recipe, index));
+}
+
+/// The key of the drive with the scan `index`.
 StreamKey scene_key(const Recipe& recipe, std::uint64_t index) {
-  return StreamKey(static_cast<std::uint64_t>(recipe.seed)).with("simulated scene").with(index);
+  return StreamKey(static_cast<std::uint64_t>(recipe.seed))
+      .with("simulated scene")
+      .with(index / static_cast<std::uint64_t>(recipe.scans_per_drive));
+}
+
+/// The key of the errors of the scan `index`.
+StreamKey sweep_key(const Recipe& recipe, std::uint64_t index) {
+  const StreamKey key = scene_key(recipe, index).with("sweep");
+  const std::uint64_t scan = scan_in_drive(recipe, index);
+  return scan == 0 ? key : key.with("scan").with(scan);
 }
 
 /// `motion` at another speed, on the same arc unless a car could not reach that lateral
@@ -32,6 +52,10 @@ std::shared_ptr<const World> make_world(const Recipe& recipe, std::uint64_t inde
   world.car.mesh = make_own_car(body);
   if (recipe.speed_mps >= 0.0) {
     world.car.motion = at_speed(world.car.motion, recipe.speed_mps);
+  }
+  if (const double begin_s = begin_of(recipe, index); begin_s > 0.0) {
+    world.car.T_world_body = world.car.pose_at(begin_s);
+    for (Body& other : world.bodies) other.T_world_body = other.pose_at(begin_s);
   }
   return std::make_shared<const World>(std::move(world));
 }
@@ -97,7 +121,8 @@ SceneKind scene_kind(const Recipe& recipe, std::uint64_t index) {
 
 SimulatedScene::SimulatedScene(std::shared_ptr<const Recipe> recipe, std::uint64_t index)
     : recipe_(std::move(recipe)),
-      key_(scene_key(*recipe_, index)),
+      key_(sweep_key(*recipe_, index)),
+      begin_s_(begin_of(*recipe_, index)),
       world_(make_world(*recipe_, index)),
       caster_(world_, window_of(*recipe_)) {}
 
@@ -105,11 +130,13 @@ PointCloud SimulatedScene::scan_of(const std::string& name) const {
   const Mounting& mounting = mounting_of(recipe_->rig, name);
   const RigidTransform T_car_sensor =
       recipe_->rig.T_car_reference() * mounting.T_reference_sensor();
+  const double clock_offset_s =
+      name == recipe_->rig.reference ? 0.0 : recipe_->noise.clock_offset_s;
   const ScanPlan plan = {mounting.time_offset_s,
                          [&](double time_s) { return world_->car.pose_at(time_s) * T_car_sensor; },
-                         name == recipe_->rig.reference ? 0.0 : recipe_->noise.clock_offset_s};
+                         begin_s_ + clock_offset_s};
   // The name of the random stream determines the bits of all scans.
-  return scan(caster_, mounting.model, recipe_->noise, plan, key_.with("sweep").with(name));
+  return scan(caster_, mounting.model, recipe_->noise, plan, key_.with(name));
 }
 
 Twist SimulatedScene::velocity_of(const std::string& name) const {

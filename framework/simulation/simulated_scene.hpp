@@ -14,8 +14,8 @@ namespace croon::simulation {
 /// The kind of the scene `index` of `recipe`.
 SceneKind scene_kind(const Recipe& recipe, std::uint64_t index);
 
-/// The world of the scene `index` of `recipe` and the scans of its sensors. Both depend only on the
-/// recipe and the index. Thread-safe.
+/// The world of the scene `index` of `recipe` and the scans of its sensors, whose times begin with
+/// the drive. Both depend only on the recipe and the index. Thread-safe.
 class SimulatedScene {
  public:
   SimulatedScene(std::shared_ptr<const Recipe> recipe, std::uint64_t index);
@@ -37,7 +37,8 @@ class SimulatedScene {
  private:
   std::shared_ptr<const Recipe> recipe_;
   StreamKey key_;
-  std::shared_ptr<const World> world_;
+  double begin_s_;                      ///< After the beginning of the drive.
+  std::shared_ptr<const World> world_;  ///< At that time.
   RayCaster caster_;
 };
 
