@@ -32,7 +32,8 @@ void NormalEquations::add(const Eigen::Matrix<double, 3, 6>& J, const Eigen::Vec
                           const Eigen::Matrix3d& Omega, double w) {
   w *= factor;
   const Eigen::Matrix<double, 3, 6> weighted = w * (Omega * J);
-  information.triangularView<Eigen::Lower>() += J.transpose() * weighted;
+  // All of it at once, unrolled: a product of one triangle is a call for matrices of any size.
+  information.noalias() += J.transpose().lazyProduct(weighted);
   gradient.noalias() += weighted.transpose() * r;
   weighted_square_sum += w * r.dot(Omega * r);
   weight_sum += w;

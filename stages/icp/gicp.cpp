@@ -62,7 +62,7 @@ class Gicp final : public Icp {
 StageEntry gicp() {
   return stage_entry<Gicp>(
       "gicp", "Plane-to-plane: residuals are weighted by the covariances of both surfaces.",
-      "Segal, Haehnel, Thrun: Generalized-ICP, RSS 2009", table());
+      "Segal, Haehnel, Thrun: Generalized-ICP, RSS 2009", table(), 2);
 }
 
 }  // namespace croon::stages::icp

@@ -96,7 +96,7 @@ StageEntry nicp() {
       "nicp",
       "Minimises the distances of the points and the differences of their normals together.",
       "Serafin, Grisetti: NICP: Dense normal based point cloud registration, IROS 2015", table(),
-      2);
+      3);
 }
 
 }  // namespace croon::stages::icp

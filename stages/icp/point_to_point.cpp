@@ -40,7 +40,7 @@ StageEntry point_to_point() {
       "point_to_point",
       "Minimises the distances between nearest neighbours; slides along surfaces that the two "
       "sensors sample at different points.",
-      "Besl, McKay: A method for registration of 3-D shapes, PAMI 1992", table());
+      "Besl, McKay: A method for registration of 3-D shapes, PAMI 1992", table(), 2);
 }
 
 }  // namespace croon::stages::icp

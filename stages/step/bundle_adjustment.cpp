@@ -281,7 +281,7 @@ StageEntry bundle_adjustment() {
       "bundle_adjustment",
       "Processes the whole rig: sets each sensor, in all scenes of a trial, to the pose at which "
       "the points of all sensors fit common planes best. Rejected poses are ignored.",
-      "Liu and Zhang, BALM, RA-L 2021; Liu, Yuan and Zhang, MLCC, T-IM 2022", table(), 12);
+      "Liu and Zhang, BALM, RA-L 2021; Liu, Yuan and Zhang, MLCC, T-IM 2022", table(), 13);
 }
 
 }  // namespace croon::stages::step

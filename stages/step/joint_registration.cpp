@@ -397,7 +397,7 @@ StageEntry joint_registration() {
       "joint_registration",
       "Processes the whole rig: registers all sensors together with the velocity of each scene, "
       "and removes the resulting distortion from the scans.",
-      "Zhang and Singh, LOAM, 2014; Chen and Medioni 1992", table(), 15);
+      "Zhang and Singh, LOAM, 2014; Chen and Medioni 1992", table(), 16);
 }
 
 }  // namespace croon::stages::step

@@ -216,7 +216,7 @@ StageEntry motion_check() {
       "Processes the whole rig: rejects the poses of a scene if uncorrected motion during its "
       "scans explains the clouds better than a rig at rest, or cannot be excluded. Needs no times: "
       "each sensor is assumed to sweep about its z axis.",
-      "croon", table(), 4);
+      "croon", table(), 5);
 }
 
 }  // namespace croon::stages::step
