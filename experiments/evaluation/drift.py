@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """How soon croon check --watch notices drift, and how often it is wrong, from its log of drives without drift.
 
-    croon simulate experiments/evaluation/held_out/drives.json --out results/drives
-    croon check results/drives/truth.json results/drives --reference top --watch --log results/drives.csv
-    experiments/evaluation/drift.py results/drives.csv --scans-per-drive 40
+drift.py LOG [--scans-per-drive N] [--hours H] [--series N]: LOG is the log of croon check --watch, for instance of
+
+  croon simulate experiments/evaluation/held_out/drives.json --out results/drives
+  croon check results/drives/truth.json results/drives --reference top --watch --log results/drives.csv
 
 The differences of the log, with an offset added from some scan on, are those of a sensor that is knocked at that scan: to first order,
 the registered pose moves with the sensor. The test of framework/calibration/drift_test.cpp is repeated here on many series at once; the
@@ -12,8 +13,12 @@ statistics in the log show whether it is the same. Long series are made of whole
 import argparse
 import csv
 import math
+import sys
 
-import numpy as np
+if len(sys.argv) < 2:
+    sys.exit(__doc__)
+
+import numpy as np  # noqa: E402
 
 DOFS = ["roll", "pitch", "yaw", "x", "y", "z"]
 UNITS = ["deg"] * 3 + ["m"] * 3
