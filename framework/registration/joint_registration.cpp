@@ -224,8 +224,8 @@ const params::Table<JointOptions>& joint_table() {
                         "Maximum number of iterations of each pass."),
         params::numbers("step_tolerance", &JointOptions::step_tolerance, {0.0, 1e3},
                         "A pass ends when its step is shorter than this, in standard deviations "
-                        "of the unknowns if the residuals were independent: the first for passes "
-                        "before the last, the second for the last."),
+                        "of the unknowns if the residuals were independent: the first in passes "
+                        "before the last, the second in the last."),
         params::integer("points", &JointOptions::points, {30, 100000000},
                         "Number of points of each scan that are used, evenly spaced; four times as "
                         "many to compare speeds."),
