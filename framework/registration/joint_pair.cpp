@@ -214,13 +214,14 @@ DeskewedTarget::DeskewedTarget(const JointScene& scene, const Twist& velocity,
   double max_square_s2m2 = 0.0;
   for (std::size_t i = 0; i < cloud.points().size(); ++i) {
     const double away_s = time_s(static_cast<int>(i));
-    max_time_s_ = std::max(max_time_s_, std::abs(away_s));
     const double range_m2 = cloud.points()[i].squaredNorm();
     max_square_s2m2 = std::max(max_square_s2m2, away_s * away_s * range_m2);
   }
   max_time_times_range_sm_ = std::sqrt(max_square_s2m2);
   if (vehicle_weight_ < 1.0) vehicles_ = vehicles_of(cloud);
   if (!scene.target.times_s.empty()) span_ = span_of(scene.target.times_s);
+  max_time_s_ = std::max(std::abs(span_.first_s - scene.reference_s),
+                         std::abs(span_.last_s - scene.reference_s));
   if (!vector_of(velocity).isZero(0.0)) move_tree();
 }
 

@@ -7,6 +7,7 @@
 
 #include "framework/base/angles.hpp"
 #include "framework/spatial/evenly_spaced.hpp"
+#include "framework/spatial/leaf_grid.hpp"
 
 namespace croon {
 namespace {
@@ -33,12 +34,6 @@ void add_to(int* sums, const Lanes& lanes) {
 /// The layer of a point, a whole number: below 0 or above the last if it is outside the map.
 double layer_of(const Eigen::Vector3d& point, const LayeredMapOptions& options) {
   return std::floor((point.z() - options.min_height_m) / options.cell_m);
-}
-
-/// std::floor for values that fit an int; without SSE 4.1, std::floor is a library call.
-int floor_of(double value) {
-  const int towards_zero = static_cast<int>(value);
-  return towards_zero - static_cast<int>(value < towards_zero);
 }
 
 int cells_within(double distance_m, const LayeredMapOptions& options) {
@@ -226,7 +221,7 @@ void LayeredMap::make_blocks() {
 }
 
 std::vector<int> LayeredMap::bounds_of(const TurnedCells& source) const {
-  const int blocks = layout_.blocks();
+  const int blocks = blocks_along(layout_.window());
   const int stride = layout_.side / kBlock;
   std::vector<int> bounds;
   std::vector<int> rows(static_cast<std::size_t>(kRows * kLane));
@@ -280,7 +275,7 @@ std::vector<MapPeak> LayeredMap::match(const TurnedCells& source, int count,
   std::vector<MapPeak> best;
   std::vector<std::vector<MapPeak>> of_yaw(static_cast<std::size_t>(source.yaws_));
   const BlockedSums blocked = {
-      source.yaws_, 2 * layout_.reach + 1, bounds_of(source),
+      source.yaws_, layout_.window(), bounds_of(source),
       [&](int yaw, int row, int column) { return sums_of(source, yaw, row, column); }};
   visit_maxima(blocked, [&](const SumMaximum& maximum) {
     const MapPeak peak = {2.0 * kPi * maximum.yaw / source.yaws_,

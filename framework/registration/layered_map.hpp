@@ -44,8 +44,8 @@ struct MapLayout {
   /// by side are neighbours.
   int bound(int layer, int row, int column) const;
   int size() const { return layers * side * side; }
-  /// Blocks of shifts along one axis.
-  int blocks() const { return (2 * reach + kBlock) / kBlock; }
+  /// Shifts along one axis.
+  int window() const { return 2 * reach + 1; }
 
   int layers;
   int reach;   ///< The maximum shift, in cells.

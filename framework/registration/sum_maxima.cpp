@@ -11,7 +11,7 @@ class BestFirst {
  public:
   explicit BestFirst(const BlockedSums& blocked)
       : blocked_(blocked),
-        stride_(kBlock * blocked.blocks() + 2),
+        stride_(kBlock * blocks_along(blocked.window) + 2),
         sums_(static_cast<std::size_t>(blocked.yaws)) {
     for (std::size_t i = 0; i < blocked.bounds.size(); ++i) {
       if (blocked.bounds[i] > 0)
@@ -61,7 +61,7 @@ class BestFirst {
 
   /// Computes a block and adds those of its shifts that may be maxima.
   void compute(int block) {
-    const int blocks = blocked_.blocks();
+    const int blocks = blocks_along(blocked_.window);
     const int window = blocked_.window;
     const int yaw = block / (blocks * blocks);
     const int block_row = block / blocks % blocks;

@@ -9,6 +9,9 @@ namespace croon {
 /// Edge of a block of shifts.
 inline constexpr int kBlock = 4;
 
+/// Blocks along one axis of `window` shifts.
+constexpr int blocks_along(int window) { return (window + kBlock - 1) / kBlock; }
+
 /// The sums at the shifts of a block: (row, column) has the index `kBlock * column + row`.
 using BlockOfSums = std::array<int, kBlock * kBlock>;
 
@@ -21,9 +24,6 @@ struct BlockedSums {
   std::vector<int> bounds;
   /// The sums in a block of the yaw (first argument), by its row and column of blocks.
   std::function<BlockOfSums(int, int, int)> sums_of;
-
-  /// Blocks along one axis.
-  int blocks() const { return (window + kBlock - 1) / kBlock; }
 };
 
 /// A sum that is positive and not below those of the four neighbouring shifts.

@@ -8,6 +8,12 @@
 
 namespace croon {
 
+/// std::floor for values that fit an int; without SSE 4.1, std::floor is a library call.
+inline int floor_of(double value) {
+  const int towards_zero = static_cast<int>(value);
+  return towards_zero - static_cast<int>(value < towards_zero);
+}
+
 /// The grid of cubes that all volume scorers and the voxel filter share: leaf (i, j, k) contains
 /// the points p with `i = floor(x / leaf_size)` and so on, in the frame of the points. All scorers
 /// use this function, so their counts are exactly equal.
@@ -24,18 +30,13 @@ class LeafGrid {
     const Eigen::Array3d scaled = point.array() * inverse_;
     // Negated, so that NaN is refused too.
     if (!(scaled.abs() <= kMaxIndex).all()) refuse(point);
-    return {floor(scaled.x()), floor(scaled.y()), floor(scaled.z())};
+    return {floor_of(scaled.x()), floor_of(scaled.y()), floor_of(scaled.z())};
   }
   double leaf_size_m() const { return leaf_size_m_; }
   /// The factor that leaf_of multiplies by: the rounded reciprocal of the leaf size.
   double leaves_per_m() const { return inverse_; }
 
  private:
-  /// std::floor for values that fit an int; without SSE 4.1, std::floor is a library call.
-  static int floor(double value) {
-    const int towards_zero = static_cast<int>(value);
-    return towards_zero - static_cast<int>(value < towards_zero);
-  }
   [[noreturn]] void refuse(const Eigen::Vector3d& point) const {
     std::ostringstream message;
     message << "a point at (" << point.x() << ", " << point.y() << ", " << point.z()
