@@ -154,14 +154,6 @@ std::vector<fs::path> clouds_in(const fs::path& folder) {
   return clouds;
 }
 
-SensorScan scan_on_demand(const std::string& sensor, const fs::path& file) {
-  SensorScan scan;
-  scan.sensor = sensor;
-  scan.file = file.string();
-  scan.load = [file] { return read_point_cloud(file); };
-  return scan;
-}
-
 /// A recording with a folder per sensor.
 Recording recording_of_folders(const std::vector<Input>& inputs) {
   Recording recording;
@@ -410,6 +402,14 @@ void thin_out(std::vector<PairedScene>& scenes, int count, std::vector<std::stri
 }
 
 }  // namespace
+
+SensorScan scan_on_demand(const std::string& sensor, const fs::path& file) {
+  SensorScan scan;
+  scan.sensor = sensor;
+  scan.file = file.string();
+  scan.load = [file] { return read_point_cloud(file); };
+  return scan;
+}
 
 RecordedScenes recorded_scenes(const std::vector<std::string>& words,
                                const RecordingOptions& options) {

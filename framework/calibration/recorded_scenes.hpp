@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,9 @@ struct RecordedScenes {
   std::vector<Scene> scenes;
   std::vector<std::string> unused;  ///< Clouds and scenes that are not used, one sentence each.
 };
+
+/// The scan of `sensor` in `file`, which is read on demand.
+SensorScan scan_on_demand(const std::string& sensor, const std::filesystem::path& file);
 
 /// The scenes in a user's inputs, each `PATH` or `NAME=PATH`:
 /// - a file per sensor, which form one scene;

@@ -86,14 +86,6 @@ bool is_one_scene_of_files(const std::vector<Scene>& scenes) {
                      });
 }
 
-SensorScan scan_in(const std::string& sensor, const fs::path& file) {
-  SensorScan scan;
-  scan.sensor = sensor;
-  scan.file = file.string();
-  scan.load = [file] { return read_point_cloud(file); };
-  return scan;
-}
-
 }  // namespace
 
 SceneStream::SceneStream(RecordedScenes recorded, double max_time_gap_s)
@@ -112,6 +104,7 @@ SceneStream::SceneStream(RecordedScenes recorded, double max_time_gap_s)
       }
     }
   }
+  recorded_.unused.clear();
   recorded_.scenes.clear();
   recorded_.scenes.shrink_to_fit();
 }
@@ -162,7 +155,7 @@ std::optional<Scene> SceneStream::next_in_folders() {
   const fs::path reference = folders_.front().files.front();
   Scene scene;
   scene.name = reference.stem().string();
-  scene.reference = scan_in(folders_.front().sensor, reference);
+  scene.reference = scan_on_demand(folders_.front().sensor, reference);
   bool is_waiting = is_unfinished(reference);
   std::vector<fs::path> used = {reference};
   for (std::size_t i = 1; i < folders_.size(); ++i) {
@@ -175,7 +168,7 @@ std::optional<Scene> SceneStream::next_in_folders() {
       is_waiting = is_waiting || age_s(reference) < kPatience_s;
     } else {
       is_waiting = is_waiting || is_unfinished(used.back());
-      scene.sensors.push_back(scan_in(folders_[i].sensor, used.back()));
+      scene.sensors.push_back(scan_on_demand(folders_[i].sensor, used.back()));
     }
   }
   if (is_waiting) return std::nullopt;

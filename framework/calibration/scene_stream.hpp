@@ -26,6 +26,8 @@ class SceneStream {
   bool is_growing() const { return !folders_.empty(); }
   /// The number of scenes; std::nullopt if further ones may appear.
   std::optional<std::size_t> size() const;
+  /// Clouds that no scene uses, one sentence each; none if further ones may appear.
+  const std::vector<std::string>& unused() const { return recorded_.unused; }
   /// The next scene; std::nullopt if there is none, or none yet. A scene in a growing folder
   /// appears when all its clouds are complete, or if one is not, `kPatience_s` after the last
   /// change: the sensor may have failed.
