@@ -6,7 +6,6 @@
 #include "experiments/cli/options.hpp"
 #include "experiments/cli/requested_calibration.hpp"
 #include "experiments/cli/watch.hpp"
-#include "framework/base/error.hpp"
 #include "framework/base/text.hpp"
 #include "framework/calibration/check_rig.hpp"
 
@@ -16,9 +15,7 @@ namespace {
 /// "RIGHT      ", coloured if `colours`.
 std::string judgement_text(PoseJudgement judgement, bool colours) {
   constexpr std::size_t kColumns = 11;
-  std::string word;
-  for (const char c : std::string(name_of(judgement))) word += static_cast<char>(c - 'a' + 'A');
-  const std::string text = left_aligned(word, kColumns);
+  const std::string text = left_aligned(capitals(name_of(judgement)), kColumns);
   if (!colours) return text;
   const char* const colour = judgement == PoseJudgement::right   ? "\033[32m"
                              : judgement == PoseJudgement::wrong ? "\033[31m"
@@ -106,17 +103,16 @@ class CheckCommand final : public Command {
              "With --watch: new CSV file, a row per scan and sensor.")
         ->needs(watch);
     add_number(command, "--false-alarm-every", options_.false_alarm_every_h, 0.001, 1e6,
-               "With --watch: mean time between false alarms at 10 Hz, hours; default 10.");
+               "With --watch: mean time between false alarms at 10 Hz, hours; default 10.")
+        ->needs(watch);
     add_number(command, "--until-idle", options_.until_idle_s, 0.0, 1e9,
-               "With --watch: end if a growing folder has no new scan for this time, s.");
+               "With --watch: end if a growing folder has no new scan for this time, s.")
+        ->needs(watch);
   }
 
   int run(const Console& console) override {
     options_.colours = console.colours;
     if (watch_) return watch_command(options_, console.out, console.err);
-    if (options_.false_alarm_every_h || options_.until_idle_s) {
-      throw InputError("", "", "--false-alarm-every and --until-idle require --watch");
-    }
     return check_command(options_, console.catalogue, console.out, console.err);
   }
 

@@ -14,6 +14,12 @@ std::string why_no_text(const std::string& name, const std::string& text, const 
   return "expected " + what + ", found the option \"" + text + "\"";
 }
 
+std::string capitals(const std::string& word) {
+  std::string result;
+  for (const char c : word) result += static_cast<char>(c - 'a' + 'A');
+  return result;
+}
+
 void add_experiment(CLI::App& command, std::filesystem::path& experiment,
                     std::vector<std::filesystem::path>& workloads) {
   add_path(command, "EXPERIMENT", experiment, "The experiment, a JSON file.")->required();

@@ -35,16 +35,21 @@ CLI::Option* add_path(CLI::App& command, const std::string& name, T& option,
   return add_text(command, name, option, sentence, "a path");
 }
 
+/// A word of small letters a to z in capitals.
+std::string capitals(const std::string& word);
+
 template <class Number>
-void add_number(CLI::App& command, const std::string& name, std::optional<Number>& option,
-                Number min, Number max, const std::string& sentence) {
+CLI::Option* add_number(CLI::App& command, const std::string& name, std::optional<Number>& option,
+                        Number min, Number max, const std::string& sentence) {
   // Range accepts NaN.
   const auto why_no_number = [](const std::string& text) {
     const bool has_digit =
         std::any_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
     return has_digit ? std::string() : "expected a number, found \"" + printable(text) + "\"";
   };
-  command.add_option(name, option, sentence)->check(why_no_number)->check(CLI::Range(min, max));
+  return command.add_option(name, option, sentence)
+      ->check(why_no_number)
+      ->check(CLI::Range(min, max));
 }
 
 /// EXPERIMENT and --with.

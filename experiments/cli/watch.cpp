@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "experiments/cli/options.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/progress.hpp"
 #include "framework/base/text.hpp"
@@ -292,15 +293,13 @@ class Watch {
     }
     constexpr std::size_t kVerdictColumns = 13;
     for (const WatchedSensor& sensor : sensors_) {
-      std::string verdict;
-      for (const char* c = name_of(sensor.test.state()); *c != '\0'; ++c) {
-        verdict += static_cast<char>(*c - 'a' + 'A');
-      }
-      out_ << left_aligned(verdict, kVerdictColumns)
+      out_ << left_aligned(capitals(name_of(sensor.test.state())), kVerdictColumns)
            << left_aligned(printable(sensor.name), columns + 2);
       if (sensor.usable > 0) out_ << change_text(sensor.test.largest_change()) << ", ";
       out_ << sensor.usable << " of " << counted(sensor.scans, "scan") << " usable\n";
     }
+    for (const std::string& line : stream_.unused())
+      out_ << "not used: " << printable(line) << "\n";
   }
 
   const WatchOptions& options_;
