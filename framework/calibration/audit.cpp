@@ -96,8 +96,7 @@ void find_normals(const Cloud& cloud, const JointOptions& options) {
 /// The joint cost of one scene around its solution, by cube of space.
 class JackknifeSystem {
  public:
-  JackknifeSystem(const JointScene& scene, const JointState& state, const JointOptions& options)
-      : scene_(scene) {
+  JackknifeSystem(const JointScene& scene, const JointState& state, const JointOptions& options) {
     for (std::size_t j = 0; j < scene.sources.size(); ++j) {
       poses_.push_back(appended_block(6, unknowns_));
     }
@@ -157,7 +156,6 @@ class JackknifeSystem {
     return hessian.ldlt();
   }
 
-  const JointScene& scene_;
   Eigen::Index unknowns_ = 0;
   std::vector<Block> poses_;
   Block velocity_;

@@ -243,8 +243,9 @@ void DeskewedTarget::move_tree() {
   const double steps_per_s = step_s > 0.0 ? 1.0 / step_s : 0.0;
   moved_points_.resize(cloud.points().size());
   for (std::size_t i = 0; i < moved_points_.size(); ++i) {
-    const double steps = (scene_.target.times_s[i] - span_.first_s) * steps_per_s;
-    const Motion& motion = motions[static_cast<std::size_t>(steps + 0.5)];
+    // Half a step later, so that the conversion rounds to the nearest.
+    const double steps = (scene_.target.times_s[i] - span_.first_s) * steps_per_s + 0.5;
+    const Motion& motion = motions[static_cast<std::size_t>(steps)];
     moved_points_[i] = motion.rotation * cloud.points()[i] + motion.translation;
   }
   if (!moved_tree_) moved_tree_ = std::make_unique<KdTree>(cloud.kd_tree());

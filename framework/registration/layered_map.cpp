@@ -224,9 +224,9 @@ std::vector<int> LayeredMap::bounds_of(const TurnedCells& source) const {
   const int blocks = blocks_along(layout_.window());
   const int stride = layout_.side / kBlock;
   std::vector<int> bounds;
-  std::vector<int> rows(static_cast<std::size_t>(kRows * kLane));
+  std::vector<int> rows(kRows * kLane);
   const auto add_tile = [&](const int* indices, int row, int column) {
-    const std::int8_t* const tile = &bounds_[static_cast<std::size_t>(row * stride + column)];
+    const std::int8_t* const tile = &bounds_[row * stride + column];
     std::fill(rows.begin(), rows.end(), 0);
     for (std::size_t begin = 0; begin < source.count_; begin += few_) {
       const std::size_t end = std::min(source.count_, begin + few_);
@@ -235,18 +235,18 @@ std::vector<int> LayeredMap::bounds_of(const TurnedCells& source) const {
         const std::int8_t* const from = tile + indices[i];
         for (int r = 0; r < kRows; ++r) of_few[r] += lanes_at(from + r * stride);
       }
-      for (int r = 0; r < kRows; ++r) add_to(&rows[static_cast<std::size_t>(r * kLane)], of_few[r]);
+      for (int r = 0; r < kRows; ++r) add_to(&rows[r * kLane], of_few[r]);
     }
   };
   for (int yaw = 0; yaw < source.yaws_; ++yaw) {
     const std::size_t first = bounds.size();
-    bounds.resize(first + static_cast<std::size_t>(blocks * blocks));
+    bounds.resize(first + blocks * blocks);
     for (int row = 0; row < blocks; row += kRows) {
       for (int column = 0; column < blocks; column += kLane) {
         add_tile(source.bounds_at(yaw), row, column);
         for (int r = 0; r < std::min(kRows, blocks - row); ++r) {
-          std::copy_n(&rows[static_cast<std::size_t>(r * kLane)], std::min(kLane, blocks - column),
-                      &bounds[first + static_cast<std::size_t>((row + r) * blocks + column)]);
+          std::copy_n(&rows[r * kLane], std::min(kLane, blocks - column),
+                      &bounds[first + (row + r) * blocks + column]);
         }
       }
     }

@@ -50,8 +50,7 @@ class BestFirst {
 
   /// The sum at a shift; the lowest number outside the window and in blocks that are not computed.
   int& at(int yaw, int row, int column) {
-    return sums_[static_cast<std::size_t>(yaw)]
-                [static_cast<std::size_t>((row + 1) * stride_ + column + 1)];
+    return sums_[static_cast<std::size_t>(yaw)][(row + 1) * stride_ + column + 1];
   }
 
   bool is_maximum(const SumMaximum& shift) {
@@ -68,7 +67,7 @@ class BestFirst {
     const int block_column = block % blocks;
     std::vector<int>& sums = sums_[static_cast<std::size_t>(yaw)];
     if (sums.empty()) {
-      sums.assign(static_cast<std::size_t>(stride_ * stride_), std::numeric_limits<int>::lowest());
+      sums.assign(stride_ * stride_, std::numeric_limits<int>::lowest());
     }
     const int rows = std::min(kBlock, window - kBlock * block_row);
     const int columns = std::min(kBlock, window - kBlock * block_column);
@@ -76,8 +75,8 @@ class BestFirst {
     const auto for_each_shift = [&](auto&& use) {
       for (int row = 0; row < rows; ++row) {
         for (int column = 0; column < columns; ++column) {
-          use(SumMaximum{here[static_cast<std::size_t>(kBlock * column + row)], yaw,
-                         kBlock * block_row + row, kBlock * block_column + column});
+          use(SumMaximum{here[kBlock * column + row], yaw, kBlock * block_row + row,
+                         kBlock * block_column + column});
         }
       }
     };
